@@ -21,7 +21,13 @@ from paper_figures.torn import around_tear, figure_10  # noqa: E402
 MOVED = ("bend", "push", "pull", "doll_bend", "doll_push", "doll_pull")
 AS_WRITTEN = ("bend", "push", "doll_push")
 CUT, BOARD = 10, 11  # figures of draw_cut
-COLUMNS, COLUMN_INCHES, TITLE = 3, 4, 0.09  # of the sheet; the height of a title in widths of a column
+# The sheet: what is side by side, its width, the height of a title in widths, and its size.
+ROWS = ((1, 3), (2,), (4, 6), (5, 7, 8), (9, 10), (11,))
+SHEET_INCHES, TITLE, SHEET_BYTES = 14, 0.022, 500_000
+TITLES = {1: "bodies, and what was tracked", 2: "data flow", 3: "the models of a body", 4: "features and their vectors",
+          5: "features on a model", 6: "features alone, and with the volume",
+          7: "from vectors, and simulated", 8: "mean value coordinates", 9: "models over the image",
+          10: "cuts of the models", 11: "a marked board cuts the sponge"}
 
 
 def read_scenes(folder):
@@ -46,20 +52,22 @@ def full(picture):
 
 
 def sheet(pictures):
-    """All figures at a glance, each below the shortest column."""
-    places, ends = {}, [0.0] * COLUMNS  # in widths of a column
-    for number, path in sorted(pictures.items()):
-        picture, column = pyplot.imread(path), ends.index(min(ends))
-        places[number] = picture, column, ends[column] + TITLE
-        ends[column] += TITLE + picture.shape[0] / picture.shape[1]
-    height = max(ends)
-    figure = pyplot.figure(figsize=(COLUMN_INCHES * COLUMNS, COLUMN_INCHES * height), dpi=DPI)
-    for number, (picture, column, top) in places.items():
-        share = picture.shape[0] / picture.shape[1] / height
-        axis = figure.add_axes([column / COLUMNS, 1 - top / height - share, 0.98 / COLUMNS, share])
-        axis.imshow(picture)
-        axis.set_axis_off()
-        axis.set_title(f"Figure {number}", fontsize=9, loc="left")
+    """All figures at a glance: those of a row have one height, and fill its width."""
+    read = {number: pyplot.imread(path) for number, path in pictures.items()}
+    shapes = {number: picture.shape[1] / picture.shape[0] for number, picture in read.items()}  # width by height
+    heights = [1.0 / sum(shapes[number] for number in row) for row in ROWS]  # in widths of the sheet
+    total = sum(heights) + TITLE * len(ROWS)
+    figure = pyplot.figure(figsize=(SHEET_INCHES, SHEET_INCHES * total), dpi=DPI)
+    top = total
+    for row, height in zip(ROWS, heights):
+        left, top = 0.0, top - TITLE - height
+        for number in row:
+            width = shapes[number] * height
+            axis = figure.add_axes([left, top / total, 0.98 * width, height / total])
+            axis.imshow(read[number])
+            axis.set_axis_off()
+            axis.set_title(f"Figure {number}: {TITLES[number]}", fontsize=11, loc="left")
+            left += width
     return figure
 
 
@@ -71,7 +79,7 @@ def main():
         save(draw(scenes), pictures[number])
     save(figure_10(pyplot.imread(folder / f"figure_{CUT}.png"), scenes["tear"]), pictures[CUT])
     save(full(pyplot.imread(folder / f"figure_{BOARD}.png")), pictures[BOARD])
-    save(sheet(pictures), output / "figures.webp")
+    save(sheet(pictures), output / "figures.webp", SHEET_BYTES)
     make_film(folder, output / "film.webp")
 
 

@@ -73,6 +73,22 @@ def show_body(axis, camera, vertices, triangles, color=SKIN, opacity=1.0, edges=
                                        linewidths=0.4))
 
 
+def blend_body(axis, camera, vertices, triangles, color, opacity, edges=None):
+    """The body over what the axis shows already. Nothing that is hidden by the body itself shines through."""
+    low, high = sorted(axis.get_xlim()), sorted(axis.get_ylim())
+    size = axis.get_window_extent().size / DPI
+    figure = pyplot.figure(figsize=size, dpi=2 * DPI)
+    layer = figure.add_axes([0, 0, 1, 1])
+    layer.set_axis_off()
+    layer.set(xlim=axis.get_xlim(), ylim=axis.get_ylim())
+    figure.patch.set_alpha(0.0)
+    show_body(layer, camera, vertices, triangles, color, edges=edges)
+    figure.canvas.draw()
+    picture = np.array(figure.canvas.buffer_rgba())
+    pyplot.close(figure)
+    axis.imshow(picture, extent=(low[0], low[1], high[1], high[0]), alpha=opacity, interpolation="bilinear")
+
+
 def show_edges(axis, camera, vertices, triangles, color=BLUE, width=0.5):
     """Edges of the triangles that face the camera."""
     outlines, _, _ = shaded(camera, vertices, triangles)
@@ -103,10 +119,10 @@ def show_vectors(axis, camera, moment, size=3.0):
     show_points(axis, camera, moment.features, BLUE, size)
 
 
-def save(figure, path):
-    """Writes a picture of at most 200 kB."""
+def save(figure, path, most_bytes=MOST_BYTES):
+    """Writes a picture, as sharp as its size allows."""
     for quality in (88, 80, 70, 60, 50):
         figure.savefig(path, pil_kwargs={"quality": quality, "method": 6})
-        if path.stat().st_size <= MOST_BYTES:
+        if path.stat().st_size <= most_bytes:
             break
     pyplot.close(figure)

@@ -6,6 +6,7 @@ from paper_figures.drawing import (BLUE, GRAY, GREEN, RED, frame, panels, pixels
 from paper_figures.overview import overview
 
 MOTIONS = ("bend", "push", "doll_bend", "doll_push")
+SEEN = {"bend": "bent sponge", "push": "pushed sponge", "doll_bend": "bent soft toy", "doll_push": "pushed soft toy"}
 LARGE = 4.5  # width of a panel with many features [inches]
 DARK_GREEN = (0.0, 0.4, 0.1)
 
@@ -26,7 +27,7 @@ def figure_1(scenes):
         moment = scenes[name][1]
         for axis in column:
             frame(axis, moment.camera, [moment.surface[0]])
-        column[0].set_title(name, fontsize=9)
+        column[0].set_title(SEEN[name], fontsize=9)
         show_image(column[0], moment.image)
         show_body(column[1], moment.camera, *moment.surface)
         show_edges(column[1], moment.camera, *moment.cage, BLUE, 0.4)
@@ -54,7 +55,7 @@ def figure_4(scenes):
     figure, axes = panels(1, 2, LARGE)
     for axis, name in zip(axes[0], ("bend", "doll_bend")):
         moment = scenes[name][1]
-        frame(axis, moment.camera, [moment.surface[0], moment.origins], name)
+        frame(axis, moment.camera, [moment.surface[0], moment.origins], SEEN[name])
         show_pale_image(axis, moment.image)
         show_vectors(axis, moment.camera, moment)
     return figure
@@ -65,7 +66,7 @@ def figure_5(scenes):
     figure, axes = panels(2, 2)
     for row, name in zip(axes, ("bend", "doll_bend")):
         for axis, moment, words in zip(row, scenes[name], ("(a) initial", "(b) updated")):
-            frame(axis, moment.camera, [later.cage[0] for later in scenes[name]], f"{words}, {name}")
+            frame(axis, moment.camera, [later.cage[0] for later in scenes[name]], f"{words}, {SEEN[name]}")
             show_body(axis, moment.camera, *moment.cage, (1.0, 1.0, 1.0), edges=[BLUE])
             show_points(axis, moment.camera, moment.features, BLUE, 4.0)
     return figure
@@ -93,7 +94,7 @@ def figure_7(scenes):
     for row, name in zip(axes, ("push", "doll_push")):
         shapes = [scenes[name][0], scenes[f"{name} as written"][-1], scenes[name][1]]
         for axis, moment, words in zip(row, shapes, ("(a) initial", "(b) from feature vectors", "(c) simulated")):
-            frame(axis, moment.camera, [shape.surface[0] for shape in shapes], f"{words}, {name}")
+            frame(axis, moment.camera, [shape.surface[0] for shape in shapes], f"{words}, {SEEN[name]}")
             show_body(axis, moment.camera, *moment.surface)
     return figure
 
@@ -114,7 +115,7 @@ def figure_9(scenes):
     """Bodies bent and pushed, with features, vectors and model over the image."""
     figure, axes = panels(2, 2, LARGE)
     for axis, name in zip(axes.flat, MOTIONS):
-        show_overlay(axis, scenes[name][1], name)
+        show_overlay(axis, scenes[name][1], SEEN[name])
     return figure
 
 

@@ -2,7 +2,7 @@
 import shutil
 import subprocess
 
-from evaluation.runs import DEVEL, ROOT, ToolFailed, tool
+from evaluation.runs import DEVEL, ROOT, ToolFailed, object_of, tool, tool_of
 from markdown_lines import paragraph, table
 from paper_parts.methods import PAPER_FILE, TEAR
 from paper_parts.runs import BOARD, FOLDER, Run
@@ -14,6 +14,7 @@ TRACKED = ("bend", "push", "pull", "doll_bend", "doll_push", "doll_pull", "doll_
 AS_WRITTEN, WRITTEN = ("bend", "push", "doll_push"), "_as_written"
 NEEDED = {**{scene: Run(scene) for scene in TRACKED},
           **{scene + WRITTEN: Run(scene, PAPER_FILE.read_text()) for scene in AS_WRITTEN}}
+FILMED = ("touch", "doll_touch", "cut", "tear")  # scenes of the film, with the texture of a sponge
 RUNS = list(NEEDED.values())
 SHOWN = {1: "the bodies before the camera; below, what was tracked, with the low-resolution model",
          2: "overview: the nodes of the graph, and what flows between them",
@@ -39,9 +40,18 @@ def lay_out(reports):
             (PICTURES / f"{name}.bag").symlink_to(reports[run]["recording"])
 
 
+def track_for_film(scene):
+    """Records one scene of a sponge, and tracks it."""
+    recording = PICTURES / f"film_{scene}.bag"
+    tool("virtual_camera", "--scene", scene, "--texture", "sponge", "--output", recording)
+    tool("replay", recording, "--object", object_of(scene), *tool_of(scene), "--output", PICTURES / f"film_{scene}_result.bag")
+
+
 def draw_figures(reports):
     """Writes figure_1.webp to figure_11.webp, the sheet figures.webp and film.webp; the lines of their section."""
     lay_out(reports)
+    for scene in FILMED:
+        track_for_film(scene)
     tool("draw_cut", PICTURES / "cut-partial_result.bag", PICTURES / "doll_cut-partial_result.bag",
          "--output", PICTURES / "figure_10.png")
     tool("draw_cut", PICTURES / f"{BOARD}_result.bag", "--recording", PICTURES / f"{BOARD}.bag",
@@ -50,6 +60,7 @@ def draw_figures(reports):
     answer = subprocess.run(command, stderr=subprocess.PIPE, text=True, check=False)
     if answer.returncode != 0:
         raise ToolFailed(f"draw.py\n{answer.stderr}")
+    shutil.rmtree(PICTURES)
     return section()
 
 
