@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
-"""The displays of the volume in track.rviz: each shows something if it is switched on, and nothing otherwise."""
+"""The displays of the volume in track.rviz: each shows something if it is switched on, and nothing otherwise. All displays
+follow the namespace of rviz."""
 import sys
 import unittest
 
+import rosgraph
 import rospkg
 import rospy
 import rostest
@@ -44,6 +46,23 @@ def publish():
     return publishers
 
 
+def topics_of(settings):
+    """The topics that a display's settings name."""
+    found = set()
+    for key, value in settings.items():
+        if isinstance(value, dict):
+            found |= topics_of(value)
+        elif key.endswith("Topic"):
+            found.add(value)
+    return found
+
+
+def subscribed(prefix):
+    """What the nodes whose names begin so subscribe to."""
+    _, subscribers, _ = rosgraph.Master("/test_rviz_configuration").getSystemState()
+    return {topic for topic, nodes in subscribers if any(node.startswith(prefix) for node in nodes)}
+
+
 class TestConfiguration(unittest.TestCase):
     def displays(self, *names):
         """The configuration's displays of the volume; those of these names are switched on."""
@@ -55,7 +74,7 @@ class TestConfiguration(unittest.TestCase):
 
     def expect(self, names, edges, arrow, face):
         """Edges, arrow and coloured face come onto the screen, or stay away."""
-        rviz = Rviz(self.displays(*names), VIEW)
+        rviz = Rviz(self.displays(*names), VIEW, namespace="/softbody")
 
         def fits(picture):
             picture = picture[100:340, 290:620]  # around the body, without the window and the colour bar
@@ -65,6 +84,20 @@ class TestConfiguration(unittest.TestCase):
 
         try:
             self.assertTrue(rviz.wait_for(fits), f"{names} show something else")
+        finally:
+            rviz.end()
+
+    def test_every_topic_follows_the_namespace(self):
+        with open(CONFIGURATION, encoding="utf-8") as file:
+            displays = yaml.safe_load(file)["Visualization Manager"]["Displays"]
+        rviz = Rviz([{**display, "Enabled": True} for display in displays], VIEW, namespace="/left")
+        expected = {"/left/" + topic for display in displays for topic in topics_of(display)}
+        expected -= {"/left/pose_marker/update"}  # rviz subscribes to it when its server has answered
+        try:
+            self.assertTrue(rviz.wait_for(lambda _: expected <= subscribed("/left/rviz")),
+                            f"not subscribed: {expected - subscribed('/left/rviz')}")
+            elsewhere = {topic for topic in subscribed("/left/rviz") if not topic.startswith("/left/")}
+            self.assertEqual(elsewhere - {"/tf", "/tf_static", "/clock"}, set())
         finally:
             rviz.end()
 

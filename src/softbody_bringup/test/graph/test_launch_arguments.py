@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
 """Relative paths given to the launch files start at the caller's directory, not at that of the nodes; output_frame reaches
 all that need it, through every launch file."""
+import importlib.machinery
+import importlib.util
 import os
 import subprocess
 import sys
@@ -16,6 +18,23 @@ RVIZ = os.path.join(rospkg.RosPack().get_path("softbody_bringup"), "rviz")
 # Launch files with the graph, and what they need.
 GRAPHS = {"track.launch": ["object:=/o.yaml"], "rig.launch": ["object:=/o.yaml"], "demo.launch": [],
           "playback.launch": ["object:=/o.yaml", "bag:=/b.bag"]}
+
+
+def program(path):
+    """A Python program as a module."""
+    loader = importlib.machinery.SourceFileLoader("program", path)
+    module = importlib.util.module_from_spec(importlib.util.spec_from_loader("program", loader))
+    loader.exec_module(module)
+    return module
+
+
+def topics_of(settings):
+    """All topics that a configuration of rviz names."""
+    for key, value in settings.items() if isinstance(settings, dict) else enumerate(settings):
+        if isinstance(value, (dict, list)):
+            yield from topics_of(value)
+        elif str(key).endswith("Topic"):
+            yield value
 
 
 def run_roslaunch(directory, *arguments, check=True):
@@ -100,7 +119,7 @@ class LaunchArguments(unittest.TestCase):
         self.assertNotIn("undocumented", listed)
 
     def rviz(self, launch, *arguments):
-        return roslaunch(self.directory.name, "--args", "/rviz", "softbody_bringup", launch, *GRAPHS[launch], "rviz:=true",
+        return roslaunch(self.directory.name, "--args", "/softbody/rviz", "softbody_bringup", launch, *GRAPHS[launch], "rviz:=true",
                          *arguments).split()
 
     def test_rviz_stands_in_the_output_frame(self):
@@ -122,7 +141,25 @@ class LaunchArguments(unittest.TestCase):
                 whole = yaml.safe_load(file)
             manager = whole.pop("Visualization Manager")
             shown.append((whole, manager["Displays"], manager["Tools"]))
+            self.assertEqual([panel["Namespace"] for panel in whole["Panels"] if "Softbody" in panel["Class"]], [""])
         self.assertEqual(*shown)
+
+    def test_rviz_of_several_bodies_names_each_namespace(self):
+        with open(f"{RVIZ}/track.rviz", encoding="utf-8") as file:
+            one = yaml.safe_load(file)
+        topics = set(topics_of(one))
+        self.assertFalse([topic for topic in topics if topic.startswith("/")])
+        bodies_rviz = program(os.path.join(rospkg.RosPack().get_path("softbody_bringup"), "src/bodies_rviz/bodies_rviz"))
+        several = bodies_rviz.configured(one, ["left", "right"])
+        self.assertEqual({topic for topic in topics_of(several) if topic.startswith("/left/")}, {"/left/" + t for t in topics})
+        rest = {topic for topic in topics_of(several) if not topic.startswith("/left/")}
+        self.assertTrue(rest and all(topic.startswith("/right/") for topic in rest), rest)
+        self.assertEqual([panel["Namespace"] for panel in several["Panels"] if "Namespace" in panel], ["/left"])
+
+    def test_rviz_is_in_the_namespace_of_the_graph(self):
+        nodes = roslaunch(self.directory.name, "--nodes", "softbody_bringup", "track.launch", *GRAPHS["track.launch"],
+                          "rviz:=true", "namespace:=/left").split()
+        self.assertEqual([node for node in nodes if node.endswith("rviz")], ["/left/rviz"])
 
 
 if __name__ == "__main__":

@@ -50,7 +50,8 @@ softbody_msgs::TetTopology body() {
   return topology;
 }
 
-class Panel : public testing::Test {
+/// @param the namespace of the graph; empty: that of rviz, which has none here.
+class Panel : public testing::TestWithParam<const char*> {
  protected:
   Panel() {
     for (const char* name : {"feature_tracker/find_again", "surface/undo", "surface/redo", "surface/reset"})
@@ -86,6 +87,10 @@ class Panel : public testing::Test {
     topology_ = node_.advertise<softbody_msgs::TetTopology>("volume/topology", 1, true);
     state_ = node_.advertise<softbody_msgs::MeshState>("surface/state", 1, true);
     panel_.onInitialize();
+    if (std::string(GetParam()) == "/softbody") return;  // the panel's own default
+    rviz::Config config;
+    config.mapSetValue("Namespace", GetParam());
+    panel_.load(config);
   }
 
   void addTrigger(const std::string& name) {
@@ -154,7 +159,7 @@ class Panel : public testing::Test {
     QMetaObject::invokeMethod(field, "returnPressed");
   }
 
-  ros::NodeHandle node_{"/softbody"};
+  ros::NodeHandle node_{GetParam()};
   std::map<std::string, double> parameters_{{"target_stiffness", 10.0}, {"youngs_modulus_pa", 2e4}};
   std::vector<std::string> called_;  // services
   double place_ = 0.0, direction_ = 0.0;
@@ -164,7 +169,7 @@ class Panel : public testing::Test {
   SoftbodyPanel panel_;
 };
 
-TEST_F(Panel, EveryButtonCallsItsServiceAndShowsTheAnswer) {
+TEST_P(Panel, EveryButtonCallsItsServiceAndShowsTheAnswer) {
   EXPECT_FALSE(button("Cut")->isEnabled());  // there is no body yet
   topology_.publish(body());
   expectAnswer("Preview", "Preview: 2 pieces of 2.0, 1.0 cm3");
@@ -192,7 +197,7 @@ TEST_F(Panel, EveryButtonCallsItsServiceAndShowsTheAnswer) {
   EXPECT_EQ(called_, expected);
 }
 
-TEST_F(Panel, StiffnessesAreThoseOfTheGraphAndCanBeChanged) {
+TEST_P(Panel, StiffnessesAreThoseOfTheGraphAndCanBeChanged) {
   auto* slider = panel_.findChild<QSlider*>("target_stiffness");
   EXPECT_FALSE(slider->isEnabled());  // nothing is known yet
   publishParameters();
@@ -210,7 +215,7 @@ TEST_F(Panel, StiffnessesAreThoseOfTheGraphAndCanBeChanged) {
   EXPECT_TRUE(waitFor([&] { return slider->value() == place; }));
 }
 
-TEST_F(Panel, ARefusedStiffnessGoesBack) {
+TEST_P(Panel, ARefusedStiffnessGoesBack) {
   publishParameters();
   accept_ = false;
   ASSERT_TRUE(waitFor([&] { return shows("target_stiffness", "10"); }));
@@ -221,7 +226,7 @@ TEST_F(Panel, ARefusedStiffnessGoesBack) {
   EXPECT_TRUE(shows("target_stiffness", "10"));
 }
 
-TEST_F(Panel, TheRecordButtonWritesABagThatIsWhole) {
+TEST_P(Panel, TheRecordButtonWritesABagThatIsWhole) {
   const QTemporaryDir folder;
   QDir::setCurrent(folder.path());
   expectAnswer("Record", "Recording to " + folder.path());
@@ -234,6 +239,28 @@ TEST_F(Panel, TheRecordButtonWritesABagThatIsWhole) {
   EXPECT_NE(button("Record"), nullptr);
   QDir::setCurrent("/");
 }
+
+TEST_P(Panel, TheNamespaceIsSavedAndOneThatIsNoneChangesNothing) {
+  auto* line = panel_.findChild<QLineEdit*>("namespace");
+  EXPECT_EQ(line->text(), GetParam());
+  line->setText("two words");
+  Q_EMIT line->editingFinished();
+  EXPECT_TRUE(says("This is no namespace"));
+  topology_.publish(body());
+  expectAnswer("Undo", "Done: undo");
+  line->setText("/elsewhere");
+  Q_EMIT line->editingFinished();
+  rviz::Config config;
+  panel_.save(config);
+  QString saved;
+  EXPECT_TRUE(config.mapGetString("Namespace", &saved));
+  EXPECT_EQ(saved, "/elsewhere");
+  expectAnswer("Find again", "/elsewhere/feature_tracker/find_again does not answer");
+  EXPECT_FALSE(button("Cut")->isEnabled());  // its body is not known
+}
+
+INSTANTIATE_TEST_SUITE_P(Namespaces, Panel, testing::Values("/softbody", "/left", ""),
+                         [](const auto& info) { return "Namespace" + std::to_string(info.index); });
 
 }  // namespace
 }  // namespace softbody

@@ -24,7 +24,7 @@ def pixels_of(picture, color):
 class Rviz:
     """Runs until end()."""
 
-    def __init__(self, displays, view, width=800, height=600):
+    def __init__(self, displays, view, width=800, height=600, namespace="/"):
         self.folder = tempfile.TemporaryDirectory()
         self.screen = VirtualScreen(width, height)
         self.screen.__enter__()
@@ -37,7 +37,7 @@ class Rviz:
             yaml.safe_dump(config, file)
         # Mesa's default, llvmpipe, now and then crashes in its compiler (libLLVM) on a busy machine.
         environment = {**self.screen.environment, "GALLIUM_DRIVER": "softpipe"}
-        self.process = subprocess.Popen(["/usr/lib/rviz/rviz", "-d", path], env=environment, start_new_session=True)
+        self.process = subprocess.Popen(["/usr/lib/rviz/rviz", "-d", path, f"__ns:={namespace}"], env=environment, start_new_session=True)
 
     def end(self):
         self.process.terminate()

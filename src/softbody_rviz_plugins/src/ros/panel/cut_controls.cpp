@@ -67,6 +67,11 @@ QPushButton* CutControls::addButton(QLayout* layout, const char* text, const cha
   return button;
 }
 
+void CutControls::setNode(const ros::NodeHandle& node) {
+  node_ = node;
+  has_body_ = false;
+}
+
 void CutControls::setBody(const Points& rest_vertices) {
   low_ = rest_vertices.colwise().minCoeff();
   high_ = rest_vertices.colwise().maxCoeff();

@@ -20,6 +20,8 @@ class CutControls : public QGroupBox {
   /// @param node in the graph's namespace. @param caller must outlive this.
   CutControls(const ros::NodeHandle& node, ServiceCaller* caller, QWidget* parent);
 
+  /// @param node in the namespace of another graph, whose body is not known yet.
+  void setNode(const ros::NodeHandle& node);
   /// The body's extent at rest gives the range of the plane.
   void setBody(const Points& rest_vertices);
   void setBusy(bool busy);

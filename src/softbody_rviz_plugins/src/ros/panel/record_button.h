@@ -17,6 +17,9 @@ class RecordButton : public QPushButton {
   /// Ends the recording, so that the bag is whole.
   ~RecordButton() override;
 
+  /// The next recording is of the graph in another namespace.
+  void setNode(const ros::NodeHandle& node) { node_ = node; }
+
  private:
   void startOrStop();
   void onEnd();

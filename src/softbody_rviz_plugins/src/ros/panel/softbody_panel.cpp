@@ -5,12 +5,12 @@
 #include <std_srvs/Trigger.h>
 
 #include <QGroupBox>
+#include <QHBoxLayout>
 #include <QTimer>
 #include <QVBoxLayout>
 #include <pluginlib/class_list_macros.hpp>
 #include <stdexcept>
 
-#include "ros/panel/record_button.h"
 #include "softbody_common/ros/conversions.h"
 #include "softbody_common/topics.h"
 #include "timing/status_words.h"
@@ -18,6 +18,7 @@
 namespace softbody {
 namespace {
 
+constexpr char kNamespace[] = "/softbody";  // of the graph, if rviz' configuration names none
 constexpr int kRefresh_ms = 100;
 constexpr double kSilent_s = 2.0;
 
@@ -58,9 +59,25 @@ SoftbodyPanel::SoftbodyPanel(QWidget* parent) : Panel(parent) {
   rows->addWidget(cut_);
   answer_ = addLabel(rows);
   stiffness_ = new StiffnessControls(node_, &caller_, this);
-  rows->insertWidget(rows->indexOf(cut_), new RecordButton(node_, answer_));
+  record_ = new RecordButton(node_, answer_);
+  rows->insertWidget(rows->indexOf(cut_), record_);
   rows->insertWidget(rows->indexOf(cut_), stiffness_);
+  addNamespace();
   rows->addStretch();
+}
+
+void SoftbodyPanel::addNamespace() {
+  auto* row = new QHBoxLayout;
+  static_cast<QVBoxLayout*>(layout())->addLayout(row);
+  row->addWidget(new QLabel("Namespace"));
+  namespace_ = new QLineEdit(kNamespace);
+  namespace_->setObjectName("namespace");
+  namespace_->setToolTip("Namespace of the graph; empty: that of rviz");
+  row->addWidget(namespace_);
+  connect(namespace_, &QLineEdit::editingFinished, [this] {
+    setNamespace(namespace_->text());
+    Q_EMIT configChanged();
+  });
 }
 
 void SoftbodyPanel::addState() {
@@ -85,8 +102,38 @@ void SoftbodyPanel::addTimes() {
   latency_ = addLabel(rows);
 }
 
-void SoftbodyPanel::onInitialize() {
+void SoftbodyPanel::load(const rviz::Config& config) {
+  Panel::load(config);
+  QString name = kNamespace;
+  config.mapGetString("Namespace", &name);
+  namespace_->setText(name);
+  setNamespace(name);
+}
+
+void SoftbodyPanel::save(rviz::Config config) const {
+  Panel::save(config);
+  config.mapSetValue("Namespace", namespace_->text());
+}
+
+/// A name that cannot be one changes nothing.
+void SoftbodyPanel::setNamespace(const QString& name) try {
+  const ros::NodeHandle node(name.toStdString());
+  if (node.getNamespace() == node_.getNamespace() && !subscribers_.empty()) return;
+  node_ = node;
+  cut_->setNode(node);
+  stiffness_->setNode(node);
+  record_->setNode(node);
+  topology_.reset();
+  times_.clear();
+  last_status_ = ros::SteadyTime();
+  setBanner(state_, "No status yet", "#666666");
   subscribe();
+} catch (const ros::InvalidNameException& error) {
+  answer_->setText(QString("This is no namespace: ") + error.what());
+}
+
+void SoftbodyPanel::onInitialize() {
+  setNamespace(namespace_->text());
   auto* timer = new QTimer(this);
   connect(timer, &QTimer::timeout, [this] { refresh(); });
   timer->start(kRefresh_ms);

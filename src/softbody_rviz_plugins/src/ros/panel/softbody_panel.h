@@ -8,10 +8,12 @@
 #include <softbody_msgs/TrackingStatus.h>
 
 #include <QLabel>
+#include <QLineEdit>
 #include <QPushButton>
 #include <vector>
 
 #include "ros/panel/cut_controls.h"
+#include "ros/panel/record_button.h"
 #include "ros/panel/service_caller.h"
 #include "ros/panel/stiffness_controls.h"
 #include "ros/panel/time_bars.h"
@@ -28,10 +30,14 @@ class SoftbodyPanel : public rviz::Panel {
   explicit SoftbodyPanel(QWidget* parent = nullptr);
 
   void onInitialize() override;
+  void load(const rviz::Config& config) override;
+  void save(rviz::Config config) const override;
 
  private:
   void addState();
   void addTimes();
+  void addNamespace();
+  void setNamespace(const QString& name);
   void subscribe();
   void onStatus(const softbody_msgs::TrackingStatus& message);
   void onTiming(const softbody_msgs::StageTiming& message);
@@ -39,13 +45,15 @@ class SoftbodyPanel : public rviz::Panel {
   void findAgain();
   void refresh();
 
-  ros::NodeHandle node_{"/softbody"};
+  ros::NodeHandle node_;  ///< in the graph's namespace
   ServiceCaller caller_;
   QLabel *state_, *reason_, *numbers_, *latency_, *answer_;
   QPushButton* find_;
   TimeBars* bars_;
   StiffnessControls* stiffness_;
   CutControls* cut_;
+  RecordButton* record_;
+  QLineEdit* namespace_;
   FrameTimes times_;
   softbody_msgs::TetTopology::ConstPtr topology_;  ///< of the cut's controls
   ros::SteadyTime last_status_;

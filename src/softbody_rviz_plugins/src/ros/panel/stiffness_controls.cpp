@@ -82,6 +82,11 @@ void StiffnessControls::addRow(const StiffnessRow& row, const char* title, const
   rows_.push_back(row);
 }
 
+void StiffnessControls::setNode(const ros::NodeHandle& node) {
+  node_ = node;
+  values_.clear();
+}
+
 void StiffnessControls::show(const dynamic_reconfigure::Config& config) {
   for (const auto& number : config.doubles) values_[number.name] = number.value;
   restore();

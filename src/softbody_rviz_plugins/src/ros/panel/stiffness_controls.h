@@ -30,6 +30,8 @@ class StiffnessControls : public QGroupBox {
   /// @param node in the graph's namespace. @param caller must outlive this.
   StiffnessControls(const ros::NodeHandle& node, ServiceCaller* caller, QWidget* parent);
 
+  /// @param node in the namespace of another graph, whose values are not known yet.
+  void setNode(const ros::NodeHandle& node);
   /// The values of the graph.
   void show(const dynamic_reconfigure::Config& config);
   /// Shows them again: the graph may have refused a change.
