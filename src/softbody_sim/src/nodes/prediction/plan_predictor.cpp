@@ -1,18 +1,13 @@
 #include "nodes/prediction/plan_predictor.h"
 
 #include <fmt/format.h>
-#include <sys/resource.h>
-#include <sys/syscall.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
-#include <future>
-#include <memory>
 #include <stdexcept>
 #include <thread>
 #include <utility>
 
+#include "nodes/give_way.h"
 #include "nodes/prediction/plan_messages.h"
 #include "nodes/prediction/prediction_messages.h"
 #include "softbody_sim/prediction/prediction.h"
@@ -25,13 +20,6 @@ constexpr double kMostSteps = 1e5, kMostStepsWithCancel = 1e6;
 
 /// One processor stays free for the graph.
 int spareProcessors() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency()) - 1); }
-
-/// The graph's threads go first, also where it uses all processors. On Linux a thread has a priority of its
-/// own. Without the permission to change it, it stays.
-void giveWay() {
-  constexpr int kNiceness = 10;
-  setpriority(PRIO_PROCESS, static_cast<id_t>(syscall(SYS_gettid)), kNiceness);
-}
 
 std::vector<MotionPlan> plansOf(const softbody_msgs::PredictRequest& request, const Present& present) {
   std::vector<MotionPlan> plans;
@@ -48,9 +36,7 @@ std::vector<MotionPlan> plansOf(const softbody_msgs::PredictRequest& request, co
 }  // namespace
 
 PlanPredictor::PlanPredictor(const ros::NodeHandle& node, FindPresent find_present)
-    : find_present_(std::move(find_present)),
-      threads_(spareProcessors()),
-      node_calls_(node.getCallbackQueue()) {}
+    : find_present_(std::move(find_present)), threads_(spareProcessors()), node_calls_(node) {}
 
 std::optional<softbody_msgs::PredictResponse> PlanPredictor::answer(
     const softbody_msgs::PredictRequest& request, const std::function<bool()>& is_cancelled,
@@ -88,19 +74,7 @@ std::optional<Present> PlanPredictor::waitForPresent(const std::set<std::string>
                                                      const std::function<bool()>& ends) {
   requireFewFrames(frames);
   if (ends()) return std::nullopt;
-  const auto promise = std::make_shared<std::promise<Present>>();
-  std::future<Present> answer = promise->get_future();
-  node_calls_.add([this, promise, frames] {
-    try {
-      promise->set_value(find_present_(frames));
-    } catch (...) {
-      promise->set_exception(std::current_exception());
-    }
-  });
-  while (answer.wait_for(std::chrono::milliseconds(100)) != std::future_status::ready) {
-    if (ends()) return std::nullopt;
-  }
-  return answer.get();
+  return node_calls_.result<Present>([this, frames] { return find_present_(frames); }, ends);
 }
 
 }  // namespace softbody

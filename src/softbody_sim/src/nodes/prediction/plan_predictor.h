@@ -1,6 +1,5 @@
 #pragma once
 
-#include <ros/callback_queue.h>
 #include <ros/ros.h>
 #include <softbody_msgs/Predict.h>
 
@@ -10,8 +9,8 @@
 #include <set>
 #include <string>
 
+#include "nodes/node_calls.h"
 #include "nodes/prediction/present.h"
-#include "softbody_common/ros/queued_calls.h"
 
 namespace softbody {
 
@@ -41,7 +40,7 @@ class PlanPredictor {
   FindPresent find_present_;
   const int threads_;
   std::atomic<bool> ends_{false};
-  QueuedCalls node_calls_;
+  NodeCalls node_calls_;
 };
 
 }  // namespace softbody

@@ -14,10 +14,6 @@ softbody_msgs::PredictResponse endOfSimulator() {
 
 }  // namespace
 
-PredictionService::OwnThread::OwnThread(const ros::NodeHandle& parent) : node(parent), spinner(1, &queue) {
-  node.setCallbackQueue(&queue);
-}
-
 PredictionService::PredictionService(const ros::NodeHandle& node, ros::NodeHandle private_node,
                                      PlanPredictor::FindPresent find_present)
     : predictor_(node, std::move(find_present)),

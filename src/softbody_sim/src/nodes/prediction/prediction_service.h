@@ -1,11 +1,11 @@
 #pragma once
 
 #include <actionlib/server/simple_action_server.h>
-#include <ros/callback_queue.h>
 #include <ros/ros.h>
 #include <softbody_msgs/Predict.h>
 #include <softbody_msgs/PredictPlansAction.h>
 
+#include "nodes/own_thread.h"
 #include "nodes/prediction/plan_predictor.h"
 
 namespace softbody {
@@ -19,13 +19,6 @@ class PredictionService {
   ~PredictionService();
 
  private:
-  /// Calls back in a thread of its own.
-  struct OwnThread {
-    explicit OwnThread(const ros::NodeHandle& parent);
-    ros::CallbackQueue queue;
-    ros::NodeHandle node;
-    ros::AsyncSpinner spinner;
-  };
   using Action = actionlib::SimpleActionServer<softbody_msgs::PredictPlansAction>;
 
   void onGoal(const softbody_msgs::PredictPlansGoalConstPtr& goal);
