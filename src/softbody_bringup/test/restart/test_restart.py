@@ -3,25 +3,15 @@
 import os
 import signal
 import sys
-import time
 import unittest
-import xmlrpc.client
 
-import rosgraph
 import rospy
 import rostest
 from softbody_msgs.msg import MeshState, TrackingStatus
 
 sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "shared"))
-from recorder import PATIENCE_S, Recorder  # pylint: disable=wrong-import-position
-
-
-def process_of(node):
-    """The process id that a node itself gives, or None if it does not answer."""
-    try:
-        return xmlrpc.client.ServerProxy(rosgraph.Master("/test_restart").lookupNode(node)).getPid("/test_restart")[2]
-    except (OSError, rosgraph.MasterException, xmlrpc.client.Error):
-        return None
+from processes import kill, wait_for_another  # pylint: disable=wrong-import-position
+from recorder import Recorder  # pylint: disable=wrong-import-position
 
 
 class Restart(unittest.TestCase):
@@ -35,17 +25,10 @@ class Restart(unittest.TestCase):
         self.recorder.wait(lambda seen: any(status.header.stamp > moment and status.state == TrackingStatus.TRACKING
                                             for status in seen["softbody/status"]), "TRACKING")
 
-    def expect_another_process(self, node, before):
-        deadline = time.monotonic() + PATIENCE_S
-        while process_of(node) in (None, before):
-            self.assertLess(time.monotonic(), deadline, f"{node} is not started again")
-            time.sleep(0.05)
-
     def expect_return(self, node, number):
-        process = process_of(node)
-        os.kill(process, number)
+        process = kill(node, number)
         moment = rospy.Time.now()
-        self.expect_another_process(node, process)
+        wait_for_another(node, process)
         self.expect_tracking_after(moment)
         print(f"{node}: tracking again {(rospy.Time.now() - moment).to_sec():.2f} s after signal {number}")
 
