@@ -1,13 +1,14 @@
 """The tracked body, live. Call rospy.init_node first."""
 import collections
+import os
 import threading
 import time
 
 import rospy
 from geometry_msgs.msg import Point, Point32, Pose, PoseStamped, Quaternion, Vector3
 from softbody_msgs.msg import MeshState, MeshTopology, PredictPlansGoal, TetTopology
-from softbody_msgs.srv import (ClosestPoint, ClosestPointRequest, CutBody, CutBodyRequest, Pin, PinRequest, Predict,
-                               PreviewCut, PreviewCutRequest, Release, SaveMesh, SetMaterial, SetObstacle,
+from softbody_msgs.srv import (ClosestPoint, ClosestPointRequest, CutBody, CutBodyRequest, LoadObject, Pin, PinRequest,
+                               Predict, PreviewCut, PreviewCutRequest, Release, SaveMesh, SetMaterial, SetObstacle,
                                SetObstacleRequest, SetPose)
 from std_srvs.srv import Trigger
 
@@ -93,6 +94,14 @@ class Body:
         pose = PoseStamped(pose=_pose(position, orientation))
         pose.header.frame_id = frame
         self._call("feature_tracker/set_pose", SetPose, pose)
+
+    def load_object(self, path):
+        """Tracks another object, without a restart of the graph. It takes as long as the object's loading.
+
+        @param path: object YAML, or the folder of its object.yaml, on the machine of the node `simulator`.
+        @return the revision of its first states. Pins are gone, obstacles stay.
+        """
+        return self._call("simulator/load_object", LoadObject, os.path.abspath(path)).revision
 
     def cut(self, point=None, normal=None, polygon=None):
         """Cuts along a plane (point, normal) or within a convex polygon (K x 3), in the rest frame [m].

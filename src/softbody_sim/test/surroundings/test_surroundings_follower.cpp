@@ -152,6 +152,20 @@ TEST_F(FollowedSurroundings, APinAndAnObstacleHaveDifferentNames) {
   EXPECT_THROW(follower_.addPin(table, rest_), std::invalid_argument);
 }
 
+TEST_F(FollowedSurroundings, PinsOfAnotherBodyReplaceAllPins) {
+  PinRegion other = endIn("");
+  other.name = "other";
+  follower_.addPin(endIn("hand"), rest_);
+  follower_.replacePins({other}, 2.0 * rest_);
+  EXPECT_EQ(follower_.pinNames(), std::vector<std::string>{"other"});
+  PinRegion nowhere = endIn("");
+  nowhere.min.setConstant(5.0), nowhere.max.setConstant(6.0);
+  EXPECT_THROW(follower_.replacePins({endIn("hand"), nowhere}, rest_), std::invalid_argument);
+  EXPECT_EQ(follower_.pinNames(), std::vector<std::string>{"other"}) << "what is refused changes nothing";
+  follower_.replacePins({}, rest_);
+  EXPECT_TRUE(at(kFrame).pins.empty());
+}
+
 TEST_F(FollowedSurroundings, PinsOfABodyThatIsPlacedHoldItsRestShape) {
   Simulator simulator(topology_, Material(), SimulatorConfig());
   follower_.addPin(endIn(""), rest_);

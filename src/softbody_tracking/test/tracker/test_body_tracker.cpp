@@ -298,5 +298,44 @@ TEST(BodyTracker, KnnModeMovesVertices) {
   EXPECT_LT(tracked.worstTarget(result, truth, TargetKind::kVertex), 0.006);
 }
 
+/// It has a later revision than the body before, as an edit has.
+TEST(BodyTracker, AnotherBodyIsSearchedForFromTheStart) {
+  BoxBody box = makeBox();
+  for (auto* parents : {&box.volume.vertex_parents, &box.surface.vertex_parents}) parents->clear();
+  for (int v = 0; v < box.volume.rest_vertices.rows(); ++v) box.volume.vertex_parents.push_back(v);
+  for (int v = 0; v < box.surface.rest_vertices.rows(); ++v) box.surface.vertex_parents.push_back(v);
+  TrackedBox tracked(TrackerConfig(), box);
+  for (int i = 0; i < 3; ++i) tracked.show(posedBox(tracked.box()));
+  const auto isEdit = [&](double scale) {
+    TetTopology volume = box.volume;
+    MeshTopology surface = box.surface;
+    volume.revision = surface.revision = 1;
+    volume.rest_vertices *= scale;
+    surface.rest_vertices *= scale;
+    const bool edit = tracked.tracker().isEdit(volume, surface);
+    tracked.tracker().setTopologies(volume, surface);
+    return edit;
+  };
+  EXPECT_FALSE(isEdit(0.5));
+  StageTimer timer;
+  RgbdFrame empty = tracked.frame();
+  empty.depth.setTo(1.2f);
+  empty.stamp += kFrameInterval;
+  const TrackingResult result = tracked.tracker().track(empty, nullptr, &timer);
+  EXPECT_EQ(result.status.state, TrackingState::kInitializing) << "it was never found, so it is not lost";
+  EXPECT_EQ(result.status.features_total, 0u);
+}
+
+TEST(BodyTracker, TheSameBodyOfALaterRevisionIsTrackedOn) {
+  TrackedBox tracked;
+  for (int i = 0; i < 3; ++i) tracked.show(posedBox(tracked.box()));
+  TetTopology volume = tracked.box().volume;
+  MeshTopology surface = tracked.box().surface;
+  volume.revision = surface.revision = 1;
+  EXPECT_TRUE(tracked.tracker().isEdit(volume, surface));
+  volume.revision = surface.revision = 0;
+  EXPECT_FALSE(tracked.tracker().isEdit(volume, surface));
+}
+
 }  // namespace
 }  // namespace softbody

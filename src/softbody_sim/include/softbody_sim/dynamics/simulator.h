@@ -23,6 +23,7 @@ class Simulator {
   /// @throw std::invalid_argument if topology, material or config do not describe a body.
   Simulator(const TetTopology& topology, const Material& material, const SimulatorConfig& config);
   Simulator(Simulator&& other) noexcept;
+  Simulator& operator=(Simulator&& other) noexcept;
   ~Simulator();
 
   const TetTopology& topology() const;

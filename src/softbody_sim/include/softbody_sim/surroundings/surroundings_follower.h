@@ -38,6 +38,8 @@ class SurroundingsFollower {
   std::size_t grip(PinRegion region, const FrameLookup& lookup, const Points& vertices, Nanoseconds stamp);
   /// @return false if no pin has the name.
   bool removePin(const std::string& name);
+  /// Lets all pins go and holds other regions, of another body. @throw as addPin(); nothing has changed.
+  void replacePins(const std::vector<PinRegion>& regions, const Points& rest_vertices);
 
   /// Adds an obstacle, or replaces the one of the same name, from the next surroundingsAt() on.
   /// @throw std::invalid_argument if a pin has the name, or there are too many obstacles.

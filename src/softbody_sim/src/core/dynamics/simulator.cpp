@@ -137,11 +137,11 @@ Simulator::Simulator(const TetTopology& topology, const Material& material, cons
     : implementation_(std::make_unique<Implementation>(topology, material, config)) {}
 
 Simulator::Simulator(Simulator&& other) noexcept = default;
+Simulator& Simulator::operator=(Simulator&& other) noexcept = default;
 Simulator::~Simulator() = default;
 
 const TetTopology& Simulator::topology() const { return implementation_->model->topology; }
 const Material& Simulator::material() const { return implementation_->material; }
-
 bool Simulator::placed() const { return implementation_->body.placed; }
 
 void Simulator::prepare() {

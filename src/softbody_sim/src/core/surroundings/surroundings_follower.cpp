@@ -140,6 +140,14 @@ std::size_t SurroundingsFollower::insert(PinnedVertices held) {
 
 bool SurroundingsFollower::removePin(const std::string& name) { return pins_.erase(name) > 0; }
 
+void SurroundingsFollower::replacePins(const std::vector<PinRegion>& regions, const Points& rest_vertices) {
+  SurroundingsFollower next = *this;
+  next.pins_.clear();
+  for (const PinRegion& region : regions) next.addPin(region, rest_vertices);
+  next.updatePins(rest_vertices, {});
+  *this = std::move(next);
+}
+
 void SurroundingsFollower::updatePins(const Points& rest_vertices, const Points& vertices) {
   surroundings_.all.pins.clear();
   surroundings_.pins.clear();

@@ -44,7 +44,10 @@ SimulatorNode::SimulatorNode(ros::NodeHandle node, const ros::NodeHandle& privat
       diagnostics_(node, private_node, &simulator_, &surroundings_),
       surroundings_input_(node, private_node, &simulator_, &surroundings_),
       targets_(node.getCallbackQueue(), [this](const auto& message) { onTargets(message); }),
-      predictions_(node, private_node, [this](const auto& frames) { return present(frames); }) {
+      predictions_(node, private_node, [this](const auto& frames) { return present(frames); }),
+      loader_(node, private_node, options,
+              {[this] { return simulator_.topology().revision; },
+               [this](NextObject* next) { useObject(next); }}) {
   if (options.surroundings.gripper)
     gripper_.emplace(node, private_node, *options.surroundings.gripper, &simulator_, &surroundings_);
   for (const PinRegion& pin : object.pins) surroundings_.addPin(pin, object.model.volume.rest_vertices);
@@ -256,6 +259,19 @@ bool SimulatorNode::onSetMaterial(softbody_msgs::SetMaterial::Request& request,
 } catch (const std::invalid_argument& error) {
   response.message = error.what();
   return true;
+}
+
+/// Its targets have a later revision than those that are still on their way.
+void SimulatorNode::useObject(NextObject* next) {
+  const TetTopology& topology = next->simulator.topology();
+  if (topology.revision != simulator_.topology().revision + 1)
+    throw std::runtime_error("the body was cut while the object was loaded; load the object again");
+  surroundings_.replacePins(next->pins, topology.rest_vertices);
+  simulator_ = std::move(next->simulator);
+  last_ = {};
+  publishOwnEdits();
+  malloc_trim(0);  // returns the memory of the object before
+  ROS_INFO("another object is simulated, from revision %u on", simulator_.topology().revision);
 }
 
 void SimulatorNode::publishState(const std_msgs::Header& header) {

@@ -11,6 +11,7 @@
 #include "nodes/forces/force_publisher.h"
 #include "nodes/prediction/prediction_service.h"
 #include "nodes/simulator/gripper_input.h"
+#include "nodes/simulator/object_loader.h"
 #include "nodes/simulator/simulator_diagnostics.h"
 #include "nodes/simulator/simulator_options.h"
 #include "nodes/simulator/surroundings_input.h"
@@ -25,9 +26,9 @@
 namespace softbody {
 
 /// Subscribes to targets, cuts and pins; takes pins and obstacles by service; follows a gripper; predicts;
-/// publishes states of the volumetric model. If the targets stop, for example because the camera stalls, it
-/// continues at its own rate. Parameters: ~object, ~body_frame, ~obstacles, ~gripper_..., ~wrench_frame,
-/// ~free_run_rate_hz, ~stall_timeout_s and those of SimulatorConfig.
+/// publishes states of the volumetric model; loads another object. If the targets stop, for example because
+/// the camera stalls, it continues at its own rate. Parameters: ~object, ~body_frame, ~obstacles,
+/// ~gripper_..., ~wrench_frame, ~free_run_rate_hz, ~stall_timeout_s and those of SimulatorConfig.
 class SimulatorNode {
  public:
   /// @throw std::invalid_argument if a parameter or a file of the object cannot be used.
@@ -46,6 +47,7 @@ class SimulatorNode {
   void onFreeRun();
   bool onSetMaterial(softbody_msgs::SetMaterial::Request& request,
                      softbody_msgs::SetMaterial::Response& response);
+  void useObject(NextObject* next);
 
   Present present(const std::set<std::string>& frames) const;
   bool step(const softbody_msgs::Targets& message, const std_msgs::Header& header);
@@ -85,6 +87,7 @@ class SimulatorNode {
   ros::Timer free_run_timer_;
   ros::WallTimer prepare_timer_;
   PredictionService predictions_;
+  ObjectLoader loader_;
 };
 
 }  // namespace softbody

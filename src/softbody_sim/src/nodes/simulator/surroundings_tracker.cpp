@@ -61,6 +61,14 @@ bool SurroundingsTracker::removePin(const std::string& name) {
   return follower_.removePin(name) && publishers_.erase(name) > 0;
 }
 
+void SurroundingsTracker::replacePins(std::vector<PinRegion> regions, const Points& rest_vertices) {
+  for (PinRegion& region : regions) region.frame = pinFrame(region);
+  const std::vector<std::string> before = follower_.pinNames();
+  follower_.replacePins(regions, rest_vertices);
+  for (const std::string& name : before) publishers_.erase(name);
+  for (const std::string& name : follower_.pinNames()) publishers_.try_emplace(name, node_, name);
+}
+
 void SurroundingsTracker::setObstacle(ObstacleDescription description) {
   const std::string name = description.name;
   description.frame = obstacleFrame(description.frame, name);

@@ -23,6 +23,9 @@ class SurroundingsTracker {
   std::size_t addPin(PinRegion region, const Points& rest_vertices);
   std::size_t grip(PinRegion region, const Points& vertices);
   bool removePin(const std::string& name);
+  /// Lets all pins go and holds other regions, of another body. @throw std::invalid_argument as
+  /// SurroundingsFollower; nothing has changed.
+  void replacePins(std::vector<PinRegion> regions, const Points& rest_vertices);
 
   void setObstacle(ObstacleDescription description);
   bool moveObstacle(const std::string& name, const std::string& frame, const Eigen::Isometry3d& pose);

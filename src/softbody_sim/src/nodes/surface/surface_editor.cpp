@@ -16,9 +16,9 @@ constexpr std::size_t kMostRecordedCuts = 100;  // that wait
 
 }  // namespace
 
-SurfaceEditor::SurfaceEditor(ros::NodeHandle node, const std::string& body_frame, MeshTopology visual,
+SurfaceEditor::SurfaceEditor(ros::NodeHandle node, const std::string& body_frame, ObjectVisual* visual,
                              const CuttingConfig& config, std::function<void()> on_edit)
-    : visual_(std::move(visual)),
+    : visual_(visual),
       config_(config),
       on_edit_(std::move(on_edit)),
       cuts_(node, body_frame),
@@ -29,11 +29,16 @@ SurfaceEditor::SurfaceEditor(ros::NodeHandle node, const std::string& body_frame
 }
 
 void SurfaceEditor::start(const TetTopology& volume) {
-  MeshTopology visual = visual_;
-  visual.revision = volume.revision;
-  body_.emplace(CuttableSurface(visual, volume, config_));
+  visual_->update();
+  body_.emplace(uncutSurface(volume));
   resetInputs();
   cuts_.publishEdits(*body_, {}, false);
+}
+
+CuttableSurface SurfaceEditor::uncutSurface(const TetTopology& volume) const {
+  MeshTopology visual = visual_->mesh();
+  visual.revision = volume.revision;
+  return {visual, volume, config_};
 }
 
 /// What waits belongs to an earlier body.
@@ -134,14 +139,13 @@ void SurfaceEditor::onVolumeEdits(const EditedBody& theirs) {
 }
 
 void SurfaceEditor::adopt(const EditedBody& theirs) {
-  const bool same_rest = body_ && sameRestBody(body_->uncutVolume(), theirs.uncut);
+  const bool other_visual = body_ && body_->edits().body != theirs.edits.body && visual_->update();
+  const bool same_rest = body_ && !other_visual && sameRestBody(body_->uncutVolume(), theirs.uncut);
   const bool same_body = same_rest && body_->edits().body == theirs.edits.body;
   if (same_rest) {
     body_->adopt(theirs.edits);
   } else {
-    MeshTopology visual = visual_;
-    visual.revision = theirs.uncut.revision;
-    CuttableSurface body(visual, theirs.uncut, config_);
+    CuttableSurface body = uncutSurface(theirs.uncut);
     body.adopt(theirs.edits);
     body_.emplace(std::move(body));
   }

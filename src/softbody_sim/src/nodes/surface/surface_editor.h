@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 
+#include "nodes/object_visual.h"
 #include "nodes/surface/blade_input.h"
 #include "nodes/surface/cut_publisher.h"
 #include "nodes/surface/targets_input.h"
@@ -21,8 +22,8 @@ namespace softbody {
 /// them. Where the simulator's edits differ, the surface follows the simulator.
 class SurfaceEditor {
  public:
-  /// @param visual the uncut visual mesh. @param on_edit called after each edit.
-  SurfaceEditor(ros::NodeHandle node, const std::string& body_frame, MeshTopology visual,
+  /// @param visual the uncut visual mesh; outlives this. @param on_edit called after each edit.
+  SurfaceEditor(ros::NodeHandle node, const std::string& body_frame, ObjectVisual* visual,
                 const CuttingConfig& config, std::function<void()> on_edit);
 
   /// Starts with a body whose cuts are not known; its visual mesh is assumed to be uncut.
@@ -31,7 +32,7 @@ class SurfaceEditor {
   bool started() const { return body_.has_value(); }
   const CuttableSurface& body() const { return *body_; }
   /// Vertices of the visual mesh at the start [m].
-  const Points& startVertices() const { return visual_.rest_vertices; }
+  const Points& startVertices() const { return visual_->mesh().rest_vertices; }
   /// Whether a state of the volume has come.
   bool placed() const { return state_.has_value(); }
 
@@ -62,7 +63,9 @@ class SurfaceEditor {
   void resetInputs();
   MeshState stateOrRest() const;
 
-  const MeshTopology visual_;
+  CuttableSurface uncutSurface(const TetTopology& volume) const;
+
+  ObjectVisual* visual_;
   const CuttingConfig config_;
   std::function<void()> on_edit_;
   std::optional<CuttableSurface> body_;

@@ -7,8 +7,6 @@
 #include "softbody_common/ros/frame_name.h"
 #include "softbody_common/ros/ros_parameters.h"
 #include "softbody_common/topics.h"
-#include "softbody_sim/object/object_description.h"
-#include "softbody_sim/object/visual_mesh.h"
 
 namespace softbody {
 namespace {
@@ -31,29 +29,24 @@ SurfaceNode::SurfaceNode(const ros::NodeHandle& node, const ros::NodeHandle& pri
 
 SurfaceNode::Options SurfaceNode::readOptions(const ros::NodeHandle& private_node) {
   Parameters parameters = readParameters(private_node);
-  const std::string object = parameters.requiredText("object");
-  const FileScope scope =
-      parameters.flag("allow_outside", false) ? FileScope::kAnywhere : FileScope::kOwnFolder;
   Options options;
+  options.object = parameters.requiredText("object");
+  options.scope = parameters.flag("allow_outside", false) ? FileScope::kAnywhere : FileScope::kOwnFolder;
   options.body_frame = ownFrame(parameters, "body_frame", private_node, "softbody");
   options.save_folder = parameters.text("save_folder", ".");
   options.cutting = readCuttingConfig(parameters);
   options.limits = readSurfaceLimits(parameters);
   warnUnknown(parameters);
-  const ObjectDescription description = loadObjectDescription(object, scope);
-  Warnings warnings = description.warnings;
-  options.visual = loadVisualMesh(description, &warnings);
-  for (const std::string& warning : warnings) ROS_WARN_STREAM(object << ": " << warning);
   return options;
 }
 
-SurfaceNode::SurfaceNode(ros::NodeHandle node, const ros::NodeHandle& private_node, Options options)
+SurfaceNode::SurfaceNode(ros::NodeHandle node, const ros::NodeHandle& private_node, const Options& options)
     : body_frame_(options.body_frame),
+      visual_(private_node, options.object, options.scope),
       stamps_(node.resolveName(topics::kVolumeState), StampGate::Repeats::kAccepted),
       publisher_(node),
       cut_display_(node),
-      editor_(node, body_frame_, std::move(options.visual), options.cutting,
-              [this] { useWaitingTopology(); }),
+      editor_(node, body_frame_, &visual_, options.cutting, [this] { useWaitingTopology(); }),
       services_(
           private_node, body_frame_, &editor_,
           [this](const CutPreview& preview) { cut_display_.startPreview(preview, editor_.body().volume()); }),
@@ -112,8 +105,8 @@ bool SurfaceNode::explanationMayCome(const softbody_msgs::TetTopology& message, 
   if (edits_subscriber_.getNumPublishers() == 0) return !is_late;
   if (!volume_edits_) return true;
   // A simulator that has just started will take over the edits of the surface, or keep its own body.
-  if (volume_edits_->body == 0) return editor_.started() && editor_.body().edits().body != 0;
-  return volume_edits_->revision != message.revision;
+  const bool takes_over = volume_edits_->body == 0 && editor_.started() && editor_.body().edits().body != 0;
+  return takes_over || volume_edits_->revision != message.revision;
 }
 
 void SurfaceNode::waitForEdits(const softbody_msgs::TetTopologyConstPtr& message) {

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 
+#include "nodes/object_visual.h"
 #include "nodes/surface/bound_surface.h"
 #include "nodes/surface/cut_display.h"
 #include "nodes/surface/cut_services.h"
@@ -35,10 +36,11 @@ class SurfaceNode {
     std::string save_folder;
     CuttingConfig cutting;
     SurfaceLimits limits;
-    MeshTopology visual;
+    std::string object;
+    FileScope scope = FileScope::kOwnFolder;
   };
   static Options readOptions(const ros::NodeHandle& private_node);
-  SurfaceNode(ros::NodeHandle node, const ros::NodeHandle& private_node, Options options);
+  SurfaceNode(ros::NodeHandle node, const ros::NodeHandle& private_node, const Options& options);
 
   void onTopology(const softbody_msgs::TetTopologyConstPtr& message);
   void onVolumeEdits(const softbody_msgs::CutHistoryConstPtr& message);
@@ -58,6 +60,7 @@ class SurfaceNode {
   void publishState(const softbody_msgs::MeshState& volume);
 
   const std::string body_frame_;
+  ObjectVisual visual_;
   StampGate stamps_;  ///< of the volume's states
   StageTimer timer_;
   SurfacePublisher publisher_;

@@ -34,13 +34,17 @@ class BodyTracker {
   explicit BodyTracker(const TrackerConfig& config, const cv::Mat3b& picture = cv::Mat3b());
   ~BodyTracker();
 
-  /// Sets the body's models. The same ones again change nothing. If their revision is greater, they are the
-  /// same body after an edit. Then tracking continues, and the next state must have this revision. Otherwise
-  /// tracking starts again.
+  /// Sets the body's models. The same ones again change nothing. If they are the same body after an edit,
+  /// tracking continues, and the next state must have their revision. Otherwise tracking starts again.
   /// @throw std::invalid_argument if the volume has no tet, or if a tet or a triangle names a missing vertex.
   void setTopologies(const TetTopology& volume, const MeshTopology& surface);
   /// Whether the models are set.
   bool ready() const;
+  /// Whether models are the present body after an edit: their revision is greater, and what remains of the
+  /// vertices has the same places at rest.
+  bool isEdit(const TetTopology& volume, const MeshTopology& surface) const;
+  /// Replaces the picture, before the models of another body are set. Empty: not known.
+  void setPicture(const cv::Mat3b& picture);
 
   /// To use the targets of a frame at once; the tracker goes on to learn from the frame afterwards. If
   /// track() throws then, they have been used all the same.

@@ -52,6 +52,7 @@ struct BodyTracker::Implementation {
                        const UseTargets& use);
   void setTopologies(const TetTopology& volume, const MeshTopology& surface);
   bool hasTopologies(const TetTopology& volume, const MeshTopology& surface) const;
+  bool isEdit(const TetTopology& volume, const MeshTopology& surface) const;
   void reset();
 
   const TetTopology& model() const { return observer->model().volume(); }
@@ -117,6 +118,12 @@ void BodyTracker::setTopologies(const TetTopology& volume, const MeshTopology& s
 
 bool BodyTracker::ready() const { return implementation_->observer != nullptr; }
 
+bool BodyTracker::isEdit(const TetTopology& volume, const MeshTopology& surface) const {
+  return implementation_->isEdit(volume, surface);
+}
+
+void BodyTracker::setPicture(const cv::Mat3b& picture) { implementation_->relocalizer.setPicture(picture); }
+
 void BodyTracker::reset() { implementation_->reset(); }
 
 void BodyTracker::restart(const Eigen::Isometry3d& rough_pose) {
@@ -180,7 +187,7 @@ TrackingResult BodyTracker::Implementation::track(const RgbdFrame& frame, const 
 
 void BodyTracker::Implementation::setTopologies(const TetTopology& volume, const MeshTopology& surface) {
   if (hasTopologies(volume, surface)) return;
-  const bool edited = observer != nullptr && volume.revision > model().revision;
+  const bool edited = isEdit(volume, surface);
   if (edited) {
     knn.rebind(model(), volume);
     observer->setTopologies(volume, surface);
@@ -194,6 +201,11 @@ void BodyTracker::Implementation::setTopologies(const TetTopology& volume, const
   measured.clear();
   held.reset();
   if (!edited) reset();
+}
+
+bool BodyTracker::Implementation::isEdit(const TetTopology& volume, const MeshTopology& surface) const {
+  return observer != nullptr && volume.revision > model().revision && mayBeEditOf(model(), volume) &&
+         mayBeEditOf(observer->model().surface(), surface);
 }
 
 /// A node that starts again sends what is known.

@@ -35,6 +35,9 @@ class Relocalizer {
   Relocalizer(const RegistrationConfig& config, cv::Mat3b picture)
       : config_(config), picture_(std::move(picture)) {}
 
+  /// Of another body; its meshes follow. Empty: not known.
+  void setPicture(cv::Mat3b picture) { picture_ = std::move(picture); }
+
   /// Forgets where the body is.
   void reset();
   /// After reset(): searches near this pose instead of the object file's. @param rough_pose in the fixed

@@ -19,8 +19,11 @@ void requireVertexCount(const MeshState& state, const TetTopology& topology) {
 
 }  // namespace
 
-BodySubscriber::BodySubscriber(ros::NodeHandle handle, BodyTracker* tracker)
-    : stamps_(handle.resolveName(topics::kVolumeState), StampGate::Repeats::kAccepted), tracker_(tracker) {
+BodySubscriber::BodySubscriber(ros::NodeHandle handle, BodyTracker* tracker,
+                               std::function<void()> on_other_body)
+    : stamps_(handle.resolveName(topics::kVolumeState), StampGate::Repeats::kAccepted),
+      tracker_(tracker),
+      on_other_body_(std::move(on_other_body)) {
   const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
   volume_subscriber_ =
       handle.subscribe(topics::kVolumeTopology, 1, &BodySubscriber::onVolumeTopology, this, hints);
@@ -47,8 +50,12 @@ void BodySubscriber::onVolumeTopology(const softbody_msgs::TetTopology::ConstPtr
   if (!volume_ || !sameTopology(*volume_->message, *message))
     changed = Volume{message, fromMessage(*message)};
   // A simulator whose body is not placed has no state: those that came are of an earlier simulation.
-  if (message->header.stamp.isZero()) clearStates();
-  if (changed) adopt(std::move(*changed), &volume_);
+  const bool is_placed = !message->header.stamp.isZero();
+  if (!is_placed) clearStates();
+  if (changed)
+    adopt(std::move(*changed), &volume_);
+  else if (!is_placed)
+    adoptTopologies();  // which may have waited for a state that never comes
 } catch (const std::exception& error) {
   ROS_ERROR_STREAM_THROTTLE(5.0, volume_subscriber_.getTopic() << " is unusable: " << error.what());
 }
@@ -66,11 +73,10 @@ void BodySubscriber::onState(const softbody_msgs::MeshState::ConstPtr& message) 
   // Without an image the simulator goes on: its states then belong to the image of the last one.
   if (!stamps_.admits(stampOfImage(*message))) return;
   newest_state_ = std::move(state);
-  if (message->revision == adopted_revision_) {
+  if (adopted_volume_ && message->revision == adopted_volume_->revision)
     adopted_state_ = newest_state_;
-  } else {
+  else
     adoptTopologies();
-  }
 } catch (const std::exception& error) {
   ROS_ERROR_STREAM_THROTTLE(5.0, state_subscriber_.getTopic()
                                      << " of revision " << message->revision
@@ -82,12 +88,15 @@ void BodySubscriber::onState(const softbody_msgs::MeshState::ConstPtr& message) 
 /// first state of the new revision, unless no state has come at all.
 void BodySubscriber::adoptTopologies() {
   if (!volume_ || !surface_) return;
+  if (volume_->message == adopted_volume_ && surface_->message == adopted_surface_) return;
   const std::uint32_t revision = volume_->topology.revision;
   if (surface_->topology.revision != revision) return;
-  const bool edited = tracker_->ready() && revision > adopted_revision_;
+  const bool edited = tracker_->isEdit(volume_->topology, surface_->topology);
   if (edited && newest_state_ && newest_state_->mesh.revision != revision) return;
+  if (!edited && tracker_->ready()) on_other_body_();
   tracker_->setTopologies(volume_->topology, surface_->topology);
-  adopted_revision_ = revision;
+  adopted_volume_ = volume_->message;
+  adopted_surface_ = surface_->message;
   adopted_state_ = edited ? newest_state_ : std::nullopt;
 }
 

@@ -7,6 +7,7 @@
 
 #include <boost/shared_ptr.hpp>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -19,8 +20,8 @@ namespace softbody {
 /// state.
 class BodySubscriber {
  public:
-  /// @param tracker must outlive this.
-  BodySubscriber(ros::NodeHandle handle, BodyTracker* tracker);
+  /// @param tracker must outlive this. @param on_other_body called before the tracker gets another body.
+  BodySubscriber(ros::NodeHandle handle, BodyTracker* tracker, std::function<void()> on_other_body);
 
   /// The newest state with the tracker's topology; nullptr before the first one, if it is in another frame,
   /// and when the simulator has started again.
@@ -53,9 +54,11 @@ class BodySubscriber {
 
   StampGate stamps_;  ///< of the states
   BodyTracker* tracker_;
+  std::function<void()> on_other_body_;
   std::optional<Volume> volume_;                             ///< newest topology
   std::optional<Surface> surface_;                           ///< newest topology
-  std::uint32_t adopted_revision_ = 0;                       ///< of the tracker's topologies
+  softbody_msgs::TetTopology::ConstPtr adopted_volume_;      ///< the tracker's; null: none
+  softbody_msgs::MeshTopology::ConstPtr adopted_surface_;    ///< likewise
   std::optional<PlacedState> newest_state_, adopted_state_;  ///< of any, and of the adopted revision
   ros::Subscriber volume_subscriber_, surface_subscriber_, state_subscriber_;
 };

@@ -50,7 +50,7 @@ FeatureTrackerNode::FeatureTrackerNode(const ros::NodeHandle& handle, ros::NodeH
       publisher_(handle, output_frame_.claim(ownFrame(parameters, "body_frame", private_handle, "softbody"))),
       stamps_(handle.resolveName(topics::kRgbRect)),
       watchdog_(readSilenceTimeout(parameters)),
-      body_(handle, &tracker_),
+      body_(handle, &tracker_, [this, private_handle] { readPicture(private_handle); }),
       blade_(handle, [this](const auto& header) { return output_frame_.poseOf(header, camera_frame_, 0.0); }),
       known_(subscribeToKnown(
           handle, parameters,
@@ -67,6 +67,12 @@ FeatureTrackerNode::FeatureTrackerNode(const ros::NodeHandle& handle, ros::NodeH
   // Wall time: without /clock a simulated timer never fires.
   silence_timer_ = ros::NodeHandle(handle).createWallTimer(
       ros::WallDuration(kStatusPeriod_s), [this](const ros::WallTimerEvent&) { reportSilence(); });
+}
+
+/// The simulator changes the parameter ~object before it publishes another object.
+void FeatureTrackerNode::readPicture(const ros::NodeHandle& private_handle) {
+  Parameters parameters = readParameters(private_handle);
+  tracker_.setPicture(loadPicture(parameters));
 }
 
 bool FeatureTrackerNode::onSetPose(softbody_msgs::SetPose::Request& request,

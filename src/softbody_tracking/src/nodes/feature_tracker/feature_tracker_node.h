@@ -37,6 +37,7 @@ class FeatureTrackerNode {
  private:
   FeatureTrackerNode(const ros::NodeHandle& handle, ros::NodeHandle private_handle, Parameters parameters);
 
+  void readPicture(const ros::NodeHandle& private_handle);
   void onFrame(const RectifiedImages& images);
   bool onSetPose(softbody_msgs::SetPose::Request& request, softbody_msgs::SetPose::Response& response);
   bool onFindAgain(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);

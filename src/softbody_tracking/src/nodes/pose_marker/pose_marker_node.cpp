@@ -73,8 +73,10 @@ void PoseMarkerNode::onInfo(const sensor_msgs::CameraInfo::ConstPtr& message) {
 }
 
 void PoseMarkerNode::onVolumeTopology(const softbody_msgs::TetTopology::ConstPtr& message) try {
-  if (isGiven(message->initial_pose)) marker_.setStartPose(toMessage(fromMessage(message->initial_pose)));
-  volume_topology_subscriber_.shutdown();  // only its initial pose is used
+  // The topology is sent again every second; another object may have another pose.
+  if (message->initial_pose == initial_pose_) return;
+  initial_pose_ = message->initial_pose;
+  if (isGiven(initial_pose_)) marker_.setStartPose(toMessage(fromMessage(initial_pose_)));
 } catch (const std::invalid_argument& error) {
   ROS_ERROR_STREAM_THROTTLE(5.0, volume_topology_subscriber_.getTopic()
                                      << " is not used: " << error.what() << "; rostopic info "

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <geometry_msgs/Pose.h>
 #include <ros/ros.h>
 #include <sensor_msgs/CameraInfo.h>
 #include <softbody_msgs/MeshTopology.h>
@@ -28,7 +29,8 @@ class PoseMarkerNode {
   void restartTracking(const PoseMarker::Feedback& feedback);
 
   // Subscribers and timers come last, so that they are the first to be destroyed.
-  std::string frame_;  ///< of the marker; empty until the camera's is known
+  std::string frame_;                 ///< of the marker; empty until the camera's is known
+  geometry_msgs::Pose initial_pose_;  ///< of the last topology; zero: not given
   ros::ServiceClient set_pose_;
   PoseMarker marker_;
   ros::Subscriber volume_topology_subscriber_, surface_topology_subscriber_, info_subscriber_;

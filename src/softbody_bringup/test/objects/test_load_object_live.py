@@ -1,0 +1,70 @@
+#!/usr/bin/env python3
+"""The whole graph gets another object without a restart; nodes that are killed come back with it; the first one is tracked
+again when it comes back."""
+import os
+import signal
+import sys
+import unittest
+
+import rospkg
+import rospy
+import rostest
+import softbody
+from softbody_msgs.msg import MeshState, MeshTopology, TetTopology, TrackingStatus
+
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "shared"))
+from processes import kill, wait_for_another  # pylint: disable=wrong-import-position
+from recorder import Recorder  # pylint: disable=wrong-import-position
+
+CONFIG = rospkg.RosPack().get_path("softbody_bringup") + "/config"
+SPONGE, DOLL = f"{CONFIG}/sponge.yaml", f"{CONFIG}/doll.yaml"
+VERTICES = {SPONGE: 522, DOLL: 18650}
+NODES = ("/softbody/simulator", "/softbody/surface", "/softbody/feature_tracker")
+
+
+class LoadObjectLive(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.recorder = Recorder(softbody__surface__topology=MeshTopology, softbody__surface__state=MeshState,
+                                softbody__volume__topology=TetTopology, softbody__status=TrackingStatus)
+        cls.body = softbody.Body(service_timeout_s=120)
+
+    def expect_tracking(self, path, revision):
+        """The camera shows the sponge."""
+        moment = rospy.Time.now()
+        self.recorder.wait(lambda seen: any(status.header.stamp > moment and status.state == TrackingStatus.TRACKING
+                                            for status in seen["softbody/status"]), f"TRACKING of {path}")
+        self.recorder.wait(lambda seen: any(state.header.stamp > moment and len(state.vertices) == VERTICES[path]
+                                            and state.revision >= revision for state in seen["softbody/surface/state"]),
+                           f"a state of {path}")
+
+    def expect_topologies(self, path, revision):
+        """From now on there are topologies of this object, of one revision or later."""
+        before = {name: len(self.recorder.messages[name]) for name in ("softbody/surface/topology",
+                                                                       "softbody/volume/topology")}
+        for name, count in before.items():
+            self.recorder.wait(lambda seen, name=name, count=count: any(
+                topology.revision >= revision for topology in seen[name][count:]), f"revision {revision} on {name}")
+        newest = self.recorder.messages["softbody/surface/topology"][-1]
+        self.assertEqual(len(newest.rest_vertices), VERTICES[path])
+        self.assertEqual([rospy.get_param(f"{node}/object") for node in NODES], [path] * 3)
+
+    def test_another_object_and_back(self):
+        self.expect_tracking(SPONGE, 0)
+        revision = self.body.load_object(DOLL)
+        self.expect_topologies(DOLL, revision)
+        for node in NODES:
+            wait_for_another(node, kill(node, signal.SIGKILL))
+            self.expect_topologies(DOLL, revision)
+        again = self.body.load_object(SPONGE)
+        self.assertGreater(again, revision)
+        self.expect_topologies(SPONGE, again)
+        self.expect_tracking(SPONGE, again)
+        for state in list(self.recorder.messages["softbody/surface/state"]):
+            if state.revision in (revision, again):
+                self.assertEqual(len(state.vertices), VERTICES[DOLL if state.revision == revision else SPONGE])
+
+
+if __name__ == "__main__":
+    rospy.init_node("test_load_object_live")
+    rostest.rosrun("softbody_bringup", "load_object_live", LoadObjectLive, sys.argv)
