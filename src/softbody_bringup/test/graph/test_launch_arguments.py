@@ -81,6 +81,15 @@ class LaunchArguments(unittest.TestCase):
             self.assertEqual(parameters.get("/softbody/simulator/gripper_box"), [-1, -2, -3, 1, 2, 3], launch)
         self.assertFalse([key for key in self.parameters("track.launch") if "gripper" in key])
 
+    def test_helpers_of_the_graph(self):
+        """Nodes that run only if an argument says so."""
+        helpers = {"collision_object", "recorder", "model_server", "pose_marker"}
+        wanted = [f"{helper}:=true" for helper in helpers]
+        for launch, arguments in GRAPHS.items():
+            for asked in ([], wanted):
+                nodes = roslaunch(self.directory.name, "--nodes", "softbody_bringup", launch, *arguments, *asked).split()
+                self.assertEqual(helpers & {node.rsplit("/", 1)[-1] for node in nodes}, helpers if asked else set(), launch)
+
     def test_output_frame(self):
         for launch in GRAPHS:
             parameters = self.parameters(launch, "output_frame:=base_link")

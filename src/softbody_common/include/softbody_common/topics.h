@@ -44,4 +44,10 @@ constexpr char kCutMarker[] = "cut/marker";
 constexpr char kPreviewMarker[] = "preview/marker";
 constexpr char kTiming[] = "timing";
 
+/// The result, as a recording has it that export, evaluate and Python read.
+constexpr const char* kResult[] = {kSurfaceTopology, kSurfaceState, kVolumeTopology,
+                                   kVolumeState,     kStatus,       kTiming};
+/// And the frames of it.
+constexpr const char* kTransforms[] = {"/tf", "/tf_static"};
+
 }  // namespace softbody::topics

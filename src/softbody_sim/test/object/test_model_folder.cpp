@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <opencv2/imgcodecs.hpp>
 #include <sstream>
 
@@ -172,6 +173,27 @@ TEST_F(ObjectModelTest, AClosedBodyGetsNoThickness) {
                  progress);
   });
   EXPECT_NE(said.find("visual.obj: has no open edges"), std::string::npos) << said;
+}
+
+/// At any time before the files have their names.
+TEST_F(ObjectModelTest, WorkThatIsEndedLeavesTheFolderAsItWas) {
+  struct Ended {};
+  describe(test::torus(0.1, 0.03, 60, 24));
+  std::ostringstream output;
+  std::vector<double> shares;
+  VolumeSettings settings;
+  settings.progress = [&](double share) { shares.push_back(share); };
+  prepareModel({folder_.file("visual.obj")}, folder_.file("whole"), settings, output);
+  EXPECT_EQ(shares.back(), 1.0);
+  EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
+  shares.pop_back();
+  for (const double end : shares) {
+    settings.progress = [end](double share) {
+      if (share >= end) throw Ended();
+    };
+    EXPECT_THROW(prepareModel({folder_.file("visual.obj")}, folder_.file("ended"), settings, output), Ended);
+    EXPECT_FALSE(std::filesystem::exists(folder_.file("ended"))) << end;
+  }
 }
 
 }  // namespace

@@ -39,10 +39,9 @@ void RecordButton::startOrStop() {
   path_ = QDir::current().absoluteFilePath(
       QDateTime::currentDateTime().toString("'softbody_'yyyy-MM-dd-HH-mm-ss-zzz'.bag'"));
   // The command rosbag ends before its child has closed the bag, so the child is started.
-  QStringList arguments{"rosbag", "record", "-O", path_, "/tf", "/tf_static"};
-  for (const char* topic : {topics::kSurfaceTopology, topics::kSurfaceState, topics::kVolumeTopology,
-                            topics::kVolumeState, topics::kStatus, topics::kTiming})
-    arguments << QString::fromStdString(node_.resolveName(topic));
+  QStringList arguments{"rosbag", "record", "-O", path_};
+  for (const char* topic : topics::kTransforms) arguments << topic;
+  for (const char* topic : topics::kResult) arguments << QString::fromStdString(node_.resolveName(topic));
   recorder_.start("rosrun", arguments);
   setText(kStop);
   answer_->setText("Recording to " + path_);

@@ -10,6 +10,12 @@ namespace softbody {
 /// What a prepared model is good for.
 enum class Verdict { kGood, kLookHere, kBad };
 
+/// "good", "look here" or "bad".
+const char* nameOf(Verdict verdict);
+
+/// Share of prepareModel()'s progress at which the model is made and the report begins.
+constexpr double kModelShare = 0.8;
+
 /// The user's mesh.
 struct ModelSource {
   std::string mesh;        ///< OBJ, PLY, STL or OFF
@@ -22,7 +28,8 @@ struct ModelSource {
 /// metres; and visual.mtl with visual.png or visual.jpg, if the mesh has a picture. Other files in the folder
 /// stay. If anything fails, the folder is unchanged. Files of these names are replaced only if prepare_model
 /// made them.
-/// @param output gets the report. @return the verdict.
+/// @param settings their `progress` may throw to end the work; 1 means that the folder is written. @param
+/// output gets the report. @return the verdict.
 /// @throw std::invalid_argument if the mesh is refused; std::runtime_error if the folder cannot be written.
 Verdict prepareModel(const ModelSource& source, const std::string& folder, const VolumeSettings& settings,
                      std::ostream& output);

@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kModelProgress = 0.8;  // fraction of the time for making the model
+constexpr double kReportShare = 0.95;  // of the progress, when the report is made
 constexpr std::array<const char*, 9> kFiles{kSkinFiles[0],       kSkinFiles[1],      kSkinFiles[2],
                                             "visual.obj",        "cage.obj",         "tets.vtu",
                                             "report/models.png", "report/report.md", "object.yaml"};
@@ -120,7 +120,7 @@ Verdict prepareModel(const ModelSource& source, const std::string& folder, const
   description.unit_m = source.scale > 0.0 ? source.scale : metresPer(source.unit);
   description.body = source.body;
   VolumeSettings making = settings;
-  making.progress = [&](double fraction) { settings.progress(kModelProgress * fraction); };
+  making.progress = [&](double fraction) { settings.progress(kModelShare * fraction); };
   ObjectModel model = buildObjectModel(description, making);
   const TriangleMesh cage = cageOf(model.volume);
 
@@ -138,6 +138,7 @@ Verdict prepareModel(const ModelSource& source, const std::string& folder, const
   writeBytes(staging.path() / "report/report.md", text);
   writePicture(staging.path() / "report/models.png", drawModel(model));
   writeBytes(staging.path() / "object.yaml", objectYaml(source.mesh, model.material));
+  settings.progress(kReportShare);
   moveFiles(staging.path(), target);
   settings.progress(1.0);
   output << text << "written to " << target.string() << '\n';

@@ -27,7 +27,4 @@ std::vector<Judgement> judgementsOf(const ObjectModel& model, const ModelQuality
 /// The worst of them.
 Verdict worst(const std::vector<Judgement>& judgements);
 
-/// "good", "look here" or "bad".
-const char* nameOf(Verdict verdict);
-
 }  // namespace softbody
