@@ -12,7 +12,8 @@
 namespace softbody {
 
 /// Receives the images of a topic. The transports `compressed` and `compressedDepth` are decoded here,
-/// because Debian has no plugins for them; image_transport does the others.
+/// because Debian has no plugins for them; image_transport does the others. `auto` takes the raw images if
+/// they are published, or else the compressed ones, as soon as somebody publishes them.
 class ImageInput {
  public:
   using Use = std::function<void(const sensor_msgs::ImageConstPtr&)>;
@@ -28,15 +29,21 @@ class ImageInput {
   int publishers() const;
 
  private:
+  void subscribe(const std::string& transport);
+  void choose();
   void decode(const sensor_msgs::CompressedImage& image) const;
 
+  ros::NodeHandle handle_;
   std::string base_topic_;
+  std::uint32_t queue_size_;
   Use use_;
   Refuse refuse_;
   std::optional<image_transport::ImageTransport> transport_;
+  std::string published_;  ///< transport that choose() found last; empty: none
   // Last, so that callbacks end before the members that they use.
   image_transport::Subscriber images_;
   ros::Subscriber compressed_;
+  ros::WallTimer choice_;
 };
 
 }  // namespace softbody
