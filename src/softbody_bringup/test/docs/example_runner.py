@@ -143,6 +143,8 @@ class PageRunner:
         keys = set(yaml.safe_load(example.text))
         if "object" in keys:
             self.load_object(name)
+        elif "gripper" in keys or "frame" in yaml.safe_load(example.text).get("tool", {}):
+            self.tool(f"rosrun softbody_bringup replay my.bag --object config/sponge.yaml --{min(keys)} {name} --output example.bag")
         elif "tool" in keys:
             # It reads the file, or says where it is wrong; the stand-in's tool is not in view all the time.
             if "frames " not in self.tool(f"rosrun softbody_bringup check_tool my.bag --tool {name}", accepted=(0, 1)):

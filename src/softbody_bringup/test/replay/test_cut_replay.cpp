@@ -1,4 +1,8 @@
+#include <geometry_msgs/PoseStamped.h>
 #include <gtest/gtest.h>
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
+#include <tf2_msgs/TFMessage.h>
 
 #include <filesystem>
 #include <fstream>
@@ -42,9 +46,33 @@ class CutReplay : public ::testing::Test {
   }
   static void TearDownTestSuite() { fs::remove_all(folder_); }
 
-  static ReplaySummary run(const std::string& output, const std::string& tool, const std::string& journal) {
+  /// The recording again, with the true pose of the knife on tf, as a robot sends it.
+  static void addToolToTf(const std::string& frame) {
+    const rosbag::Bag recording(folder_ / "cut.bag");
+    rosbag::Bag with_tf(folder_ / "cut_tf.bag", rosbag::bagmode::Write);
+    for (const rosbag::MessageInstance& message : rosbag::View(recording)) {
+      with_tf.write(message.getTopic(), message.getTime(), message);
+      const auto pose = message.getTopic() == "/ground_truth/tool/pose"
+                            ? message.instantiate<geometry_msgs::PoseStamped>()
+                            : nullptr;
+      if (!pose) continue;
+      tf2_msgs::TFMessage transforms;
+      transforms.transforms.resize(1);
+      transforms.transforms[0].header = pose->header;
+      transforms.transforms[0].child_frame_id = frame;
+      transforms.transforms[0].transform.rotation = pose->pose.orientation;
+      transforms.transforms[0].transform.translation.x = pose->pose.position.x;
+      transforms.transforms[0].transform.translation.y = pose->pose.position.y;
+      transforms.transforms[0].transform.translation.z = pose->pose.position.z;
+      with_tf.write("/tf", message.getTime(), transforms);
+    }
+  }
+
+  static ReplaySummary run(const std::string& output, const std::string& tool, const std::string& journal,
+                           const std::string& blade_frame = "") {
     ReplayOptions options;
-    options.input = folder_ / "cut.bag";
+    options.input = folder_ / (blade_frame.empty() ? "cut.bag" : "cut_tf.bag");
+    options.blade_frame = blade_frame;
     options.objects = {CONFIG_DIR "/sponge.yaml"};
     options.output = folder_ / output;
     options.tool = tool;
@@ -90,6 +118,18 @@ TEST_F(CutReplay, AToolCutsTheBodyInTwoAndItsJournalDoesItAgain) {
   EXPECT_EQ(by_journal.vertex_parents, by_blade.vertex_parents);
   EXPECT_EQ(by_journal.triangle_pieces, by_blade.triangle_pieces);
   EXPECT_EQ(by_journal.cut, by_blade.cut);
+}
+
+TEST_F(CutReplay, ABladeThatAFrameOfTfCarriesCuts) {
+  addToolToTf("robot_tool");
+  const std::string knife = CONFIG_DIR "/knife.yaml";
+  const ReplaySummary summary = run("carried.bag", knife, "", "robot_tool");
+  const BodySummary& carried = summary.bodies.front();
+  EXPECT_EQ(carried.pieces, 2u);
+  EXPECT_EQ(carried.tools, summary.read.frames) << carried.tool_missed;
+  EXPECT_EQ(carried.tool_missed, "");
+  EXPECT_TRUE(isClosed(lastTopology("carried.bag").triangles));
+  EXPECT_EQ(run("nowhere.bag", knife, "", "unknown").bodies.front().tools, 0);
 }
 
 /// Frames of the virtual sponge at rest, and frames in which nothing is to be seen.

@@ -94,8 +94,7 @@ TEST_F(ReplayedSurroundings, AGripperSaysWhereTheHiddenEndIs) {
   };
   const double alone = hidden_mean();
   EXPECT_TRUE(results<geometry_msgs::WrenchStamped>("/softbody/reaction/gripper").empty());
-  options.gripper_frame = "/gripper";
-  options.gripper_fingers = "left_finger right_finger";
+  options.gripper = CONFIG_DIR "/gripper.yaml";
   EXPECT_LT(hidden_mean(), alone);
   EXPECT_TRUE(warnings_.empty()) << warnings_.front();
   const auto felt = results<geometry_msgs::WrenchStamped>("/softbody/reaction/gripper");

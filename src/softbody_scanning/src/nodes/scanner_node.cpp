@@ -23,7 +23,7 @@ constexpr std::size_t kFewestFrames = 6;  // for a preview
 ToolDescription loadSheet(Parameters& parameters) {
   const FileScope scope =
       parameters.flag("allow_outside", false) ? FileScope::kAnywhere : FileScope::kOwnFolder;
-  return loadToolDescription(parameters.requiredText("sheet"), scope);
+  return loadToolWithMarkers(parameters.requiredText("sheet"), scope);
 }
 
 Preview tryPreview(const PosedRecording& recording) {

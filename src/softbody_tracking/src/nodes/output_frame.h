@@ -28,6 +28,9 @@ class OutputFrame {
     return frame;
   }
 
+  /// How long a pose is waited for [s]: `tf_timeout_s`.
+  double timeout_s() const { return timeout_s_; }
+
   /// The camera's header with the fixed frame as its frame_id.
   std_msgs::Header fixedHeader(const std_msgs::Header& camera_header) const;
 

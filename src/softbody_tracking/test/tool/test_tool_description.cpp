@@ -67,6 +67,27 @@ TEST_F(ToolDescriptionTest, AGoodFileIsRead) {
   EXPECT_TRUE(markerCorners(description.markers[0]).isApprox(corners, 1e-12));
 }
 
+TEST_F(ToolDescriptionTest, AFrameOfTfMayTakeThePlaceOfMarkers) {
+  const std::string blade = "  blade: [[0, 0, 0], [0, 0.05, 0], [0, 0.05, 0.1]]\n";
+  const ToolDescription knife = loadToolDescription(file("tool:\n  frame: knife_link\n" + blade));
+  EXPECT_EQ(knife.frame, "knife_link");
+  EXPECT_TRUE(knife.markers.empty());
+  EXPECT_EQ(knife.blade.rows(), 3);
+  EXPECT_TRUE(knife.warnings.empty());
+  EXPECT_THROW(loadToolWithMarkers(file("tool:\n  frame: knife_link\n" + blade)), std::invalid_argument);
+
+  EXPECT_NE(refusal(tool("DICT_4X4_50", kMarker, "  frame: knife_link\n")).find("frame and markers"),
+            std::string::npos);
+  EXPECT_NE(refusal("tool: {frame: [knife_link]}").find("tool/frame must be a text"), std::string::npos);
+
+  const ToolDescription marked = loadToolWithMarkers(file(tool("DICT_4X4_50", kMarker, blade)));
+  EXPECT_EQ(inFrame(marked, "").markers.size(), 1u);
+  const ToolDescription carried = inFrame(marked, "tool0");
+  EXPECT_EQ(carried.frame, "tool0");
+  EXPECT_TRUE(carried.markers.empty());
+  EXPECT_EQ(carried.blade, marked.blade);
+}
+
 TEST_F(ToolDescriptionTest, TheBladeIsOptionalAndUnknownKeysAreWarnedOf) {
   const ToolDescription description =
       loadToolDescription(file(tool("DICT_4X4_50", "{id: 1, size_m: 0.02, colour: red}", "  balde: []\n")));

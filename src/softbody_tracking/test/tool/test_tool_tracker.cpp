@@ -258,5 +258,22 @@ TEST(ToolTracker, AToolWithoutMarkersIsRefused) {
   EXPECT_THROW(ToolTracker(ToolDescription{"DICT_4X4_50", {}, Points(0, 3), {}}), std::invalid_argument);
 }
 
+TEST(ToolTracker, AToolWithAFrameIsWhereTheFrameIs) {
+  ToolDescription knife;
+  knife.frame = "knife_link";
+  ToolTracker tracker(knife);
+  EXPECT_FALSE(tracker.follow(0, std::nullopt));
+  EXPECT_NE(tracker.reason().find("'knife_link'"), std::string::npos) << tracker.reason();
+  const Eigen::Isometry3d place = Eigen::Translation3d(0.1, 0.0, 0.5) * Eigen::Isometry3d::Identity();
+  const std::optional<ToolObservation> seen = tracker.follow(kFrame, place);
+  ASSERT_TRUE(seen);
+  EXPECT_EQ(seen->stamp, kFrame);
+  EXPECT_TRUE(seen->cuts);
+  EXPECT_FALSE(seen->ambiguous || seen->bridged);
+  EXPECT_TRUE(seen->T_camera_tool.isApprox(place));
+  EXPECT_TRUE(tracker.reason().empty()) << tracker.reason();
+  EXPECT_FALSE(tracker.follow(2 * kFrame, std::nullopt)) << "it is not predicted";
+}
+
 }  // namespace
 }  // namespace softbody

@@ -81,6 +81,7 @@ class Pipeline {
  private:
   CuttableSurface makeSurface();
   void startPass();
+  std::optional<ToolObservation> trackTool(const RgbdFrame& frame, const SurroundingsInput& surroundings);
   void simulate(const TargetSet& targets, Nanoseconds stamp, const SurroundingsInput& input,
                 FrameOutput* output);
   void addShape(FrameOutput* output);

@@ -17,6 +17,7 @@ struct GraphConfig {
   PipelineConfig pipeline;
   double robot_deviation_m = 0.003;  ///< see robotSurfaces()
   std::string output_frame;          ///< empty: the colour optical frame
+  std::string blade_frame;           ///< of a tool, in place of its markers; empty: as the tool YAML says
 };
 
 /// Reads the parameters that a replay uses. Ignores parameters that concern only the live graph.

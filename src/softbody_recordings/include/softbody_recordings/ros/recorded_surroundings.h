@@ -17,11 +17,11 @@ class RecordedSurroundings {
  public:
   using Warn = std::function<void(const std::string&)>;
 
-  /// @param gripper_topic std_msgs/Bool, true while the gripper is closed; empty: there is no gripper. The
-  /// messages have no stamp, so the times of recording count.
+  /// @param config of the surroundings. The messages on the topic of its gripper have no stamp, so the times
+  /// of recording count.
   /// @param warn called with refused transforms, and if the topic has no message.
   /// @throw std::exception with the path if the bag cannot be read, or the topic has another type.
-  RecordedSurroundings(const rosbag::Bag& bag, const std::string& gripper_topic, const Warn& warn);
+  RecordedSurroundings(const rosbag::Bag& bag, const SurroundingsConfig& config, const Warn& warn);
 
   /// @param fixed_frame of targets and states. The result must not outlive this object.
   SurroundingsInput at(const std::string& fixed_frame, const ros::Time& stamp) const;

@@ -15,11 +15,13 @@ struct ReplayOptions {
   std::string input, output;                ///< bags
   std::vector<std::string> objects;         ///< object YAMLs or folders, at least one
   std::string parameters, tool, journal;    ///< YAML, tool YAML, bag with cuts; empty: none
+  std::string blade_frame;                  ///< in the input's tf: of the tool, in place of its markers
   std::vector<std::string> known_surfaces;  ///< namespaces of surfaces that the input also has
   std::string robot;                        ///< URDF; empty: no robot
+  std::string gripper;                      ///< YAML of a gripper, or its frame; empty: from the parameters
   std::string gripper_frame;                ///< between the fingers of a gripper; empty: from the parameters
   std::string gripper_fingers;  ///< frames of the fingers, separated by spaces; empty: from the parameters
-  std::string gripper_closed = "/gripper/closed";  ///< topic (std_msgs/Bool) of the input
+  std::string gripper_closed;   ///< topic (std_msgs/Bool) of the input; empty: from the parameters
   CameraTopics camera = "/camera";
   std::string topic_namespace =
       "/softbody";                          ///< of the output topics of one body; several: objectNamespaces()

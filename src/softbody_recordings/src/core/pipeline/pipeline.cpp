@@ -62,7 +62,7 @@ FrameOutput Pipeline::process(const RgbdFrame& frame, const std::vector<Cut>& cu
   if (std::exchange(to_be_placed_, false))
     tracker_.placeAt(frame.T_fixed_camera * uncut_volume_.initial_pose);
   const bool simulated = simulator_.placed();
-  if (tool_tracker_) output.tool = tool_tracker_->track(frame, &timer_);
+  output.tool = trackTool(frame, surroundings);
   const std::optional<Points> blade = seenBlade(frame, output);
   if (blade) tool_mask_.setBlade(frame.stamp, *blade);
   output.tracking =
@@ -76,6 +76,18 @@ FrameOutput Pipeline::process(const RgbdFrame& frame, const std::vector<Cut>& cu
   }
   output.times = timer_.take();
   return output;
+}
+
+/// By its markers, or where its frame is.
+std::optional<ToolObservation> Pipeline::trackTool(const RgbdFrame& frame,
+                                                   const SurroundingsInput& surroundings) {
+  if (!tool_tracker_) return std::nullopt;
+  const std::string& followed = tool_tracker_->tool().frame;
+  if (followed.empty()) return tool_tracker_->track(frame, &timer_);
+  std::optional<Eigen::Isometry3d> T_camera_tool;
+  if (const std::optional<StampedPose> place = surroundings.lookup(followed, frame.stamp))
+    T_camera_tool = frame.T_fixed_camera.inverse() * place->pose;
+  return tool_tracker_->follow(frame.stamp, T_camera_tool);
 }
 
 FrameOutput Pipeline::predict(const RgbdFrame& frame, const std::vector<Cut>& cuts,
@@ -101,7 +113,9 @@ FrameOutput Pipeline::predict(const RgbdFrame& frame, const std::vector<Cut>& cu
 
 std::optional<ToolObservation> Pipeline::processUnplaced(RgbdFrame frame) {
   frame.placed = false;
-  return tool_tracker_ ? tool_tracker_->track(frame, nullptr) : std::nullopt;
+  if (!tool_tracker_) return std::nullopt;
+  const bool follows = !tool_tracker_->tool().frame.empty();
+  return follows ? tool_tracker_->follow(frame.stamp, std::nullopt) : tool_tracker_->track(frame, nullptr);
 }
 
 void Pipeline::simulate(const TargetSet& targets, Nanoseconds stamp, const SurroundingsInput& input,

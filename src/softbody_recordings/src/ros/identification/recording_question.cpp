@@ -81,8 +81,10 @@ RecordingAnswer answer(const RecordingQuestion& question, const ObjectDescriptio
                        const ObjectModel& model, const std::function<void(const std::string&)>& warn,
                        const std::function<void(double)>& progress) {
   std::vector<std::string> warnings;
-  const GraphConfig config =
-      readGraphConfig(question.parameters, &warnings, {{"gripper_frame", question.gripper_frame}});
+  const GraphConfig config = readGraphConfig(question.parameters, &warnings,
+                                             {{"gripper", question.gripper},
+                                              {"gripper_frame", question.gripper_frame},
+                                              {"gripper_closed", question.gripper_closed}});
   for (const std::string& warning : warnings) warn(warning);
   const std::vector<PinRegion> pins = pinsOf(question, description);
   requireNames(question, config.pipeline.surroundings, pins);

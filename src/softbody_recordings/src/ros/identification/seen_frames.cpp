@@ -177,8 +177,7 @@ SeenRecording readRecording(const RecordingQuestion& question, const GraphConfig
   pipeline_config.surroundings = {};
   Pipeline pipeline(model, pipeline_config);
   Followed followed(config.pipeline.surroundings, pins, model.volume.rest_vertices);
-  const RecordedSurroundings surroundings(
-      bag, config.pipeline.surroundings.gripper ? question.gripper_closed : "", warn);
+  const RecordedSurroundings surroundings(bag, config.pipeline.surroundings, warn);
   BagFramesUse messages;
   messages.note = warn;
   messages.frame = [&progress](const CameraImages&, const std_msgs::Header&, double share) {

@@ -63,8 +63,19 @@ SurroundingsConfig readSurroundings(Parameters& parameters, const SimulatorConfi
   for (const std::string& key : unknown)
     warnings->push_back(fmt::format("unknown parameter {} is ignored", key));
   for (ObstacleDescription& obstacle : config.obstacles) obstacle.frame = withoutSlash(obstacle.frame);
-  if (config.gripper) config.gripper->frame = withoutSlash(config.gripper->frame);
+  if (!config.gripper) return config;
+  config.gripper->frame = withoutSlash(config.gripper->frame);
+  config.gripper_closed = "/" + withoutSlash(config.gripper_closed);
   return config;
+}
+
+void readToolTracker(const YAML::Node& file, std::vector<std::string>* warnings, GraphConfig* config) {
+  const LiveOnly live{{"tool", "allow_outside", "tool_frame", "output_frame", "tf_timeout_s"}, {}};
+  config->pipeline.tool_tracker =
+      readSection(file, "tool_tracker", live, warnings, [config](Parameters& parameters) {
+        config->blade_frame = parameters.text("blade_frame", "");
+        return readToolTrackerConfig(parameters);
+      });
 }
 
 }  // namespace
@@ -103,9 +114,7 @@ GraphConfig readGraphConfig(const std::string& path, std::vector<std::string>* w
       });
   config.pipeline.cutting = readSection(file, "surface", {{"body_frame", "object", "allow_outside"}, {}},
                                         warnings, readCuttingConfig);
-  config.pipeline.tool_tracker = readSection(
-      file, "tool_tracker", {{"tool", "allow_outside", "tool_frame", "output_frame", "tf_timeout_s"}, {}},
-      warnings, readToolTrackerConfig);
+  readToolTracker(file, warnings, &config);
   return config;
 }
 

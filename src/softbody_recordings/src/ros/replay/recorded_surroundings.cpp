@@ -13,19 +13,19 @@
 
 namespace softbody {
 
-RecordedSurroundings::RecordedSurroundings(const rosbag::Bag& bag, const std::string& gripper_topic,
+RecordedSurroundings::RecordedSurroundings(const rosbag::Bag& bag, const SurroundingsConfig& config,
                                            const Warn& warn) try
     : transforms_({bag.getFileName()}) {
   for (const std::string& warning : transforms_.warnings()) warn(warning);
-  if (gripper_topic.empty()) return;
-  rosbag::View view(bag, rosbag::TopicQuery(gripper_topic));
+  if (!config.gripper) return;
+  rosbag::View view(bag, rosbag::TopicQuery(config.gripper_closed));
   for (const rosbag::MessageInstance& message : view)
     closed_[message.getTime()] = instantiate<std_msgs::Bool>(message, bag)->data != 0;
   if (closed_.empty())
     warn(
         fmt::format("the gripper never closes: {} has no message on {}; record it, or name its topic "
                     "(--gripper-closed)",
-                    bag.getFileName(), gripper_topic));
+                    bag.getFileName(), config.gripper_closed));
 } catch (const rosbag::BagException& error) {
   throw damagedBag(bag.getFileName(), error);
 }

@@ -54,19 +54,24 @@ cv::Mat3b loadPicture(const std::string& object, FileScope scope, const Warn& wa
 
 GraphConfig configOf(const ReplayOptions& options, const Warn& warn) {
   std::vector<std::string> warnings;
-  GraphConfig config = readGraphConfig(
-      options.parameters, &warnings,
-      {{"gripper_frame", options.gripper_frame}, {"gripper_fingers", options.gripper_fingers}});
+  GraphConfig config = readGraphConfig(options.parameters, &warnings,
+                                       {{"gripper", options.gripper},
+                                        {"gripper_frame", options.gripper_frame},
+                                        {"gripper_fingers", options.gripper_fingers},
+                                        {"gripper_closed", options.gripper_closed}});
   warnAll(warn, "", warnings);
   config.pipeline.forces = options.forces, config.pipeline.placed = options.placed;
   if (!options.simd.empty()) config.pipeline.simulator.simd = options.simd;
   return config;
 }
 
-std::optional<ToolDescription> loadTool(const std::string& path, FileScope scope, const Warn& warn) {
-  if (path.empty()) return std::nullopt;
-  const ToolDescription tool = loadToolDescription(path, scope);
+std::optional<ToolDescription> loadTool(const ReplayOptions& options, const std::string& blade_frame,
+                                        const Warn& warn) {
+  if (options.tool.empty()) return std::nullopt;
+  ToolDescription tool = inFrame(loadToolDescription(options.tool, options.scope),
+                                 options.blade_frame.empty() ? blade_frame : options.blade_frame);
   warnAll(warn, "", tool.warnings);
+  tool.frame = withoutSlash(tool.frame);
   return tool;
 }
 
@@ -98,10 +103,9 @@ class Replay {
         camera_poses_(options.input,
                       options.output_frame.empty() ? config.output_frame : options.output_frame),
         output_(options.output) {
-    addBodies(options, config.pipeline);
+    addBodies(options, config);
     if (!follows_) warnAll(warn_, "", camera_poses_.warnings());
-    if (follows_)
-      surroundings_.emplace(input, config.pipeline.surroundings.gripper ? options.gripper_closed : "", warn_);
+    if (follows_) surroundings_.emplace(input, config.pipeline.surroundings, warn_);
     if (options.known_surfaces.empty() && options.robot.empty()) return;
     transforms_.emplace(std::vector<std::string>{options.input});
     for (const std::string& name : options.known_surfaces) surfaces_.emplace_back(input, name, warn_);
@@ -162,13 +166,15 @@ class Replay {
     return known;
   }
 
-  void addBodies(const ReplayOptions& options, PipelineConfig config) {
+  void addBodies(const ReplayOptions& options, const GraphConfig& graph) {
+    PipelineConfig config = graph.pipeline;
     const bool alone = options.objects.size() == 1;
-    follows_ = config.surroundings.gripper || !config.surroundings.obstacles.empty();
+    const std::optional<ToolDescription> tool = loadTool(options, graph.blade_frame, warn_);
+    follows_ = config.surroundings.gripper || !config.surroundings.obstacles.empty() ||
+               (tool && !tool->frame.empty());
     const std::vector<std::string> namespaces =
         alone ? std::vector<std::string>{options.topic_namespace} : objectNamespaces(options.objects);
     std::vector<CutJournal> journals = loadJournals(options.journal, namespaces);
-    const std::optional<ToolDescription> tool = loadTool(options.tool, options.scope, warn_);
     for (std::size_t k = 0; k < namespaces.size(); ++k) {
       const Warn warn_of_body =
           alone ? warn_ : [warn = warn_, name = namespaces[k]](const std::string& text) {
@@ -190,7 +196,7 @@ class Replay {
 
   Warn warn_;
   CameraPoses camera_poses_;
-  bool follows_ = false;  ///< there are pins, obstacles or a gripper
+  bool follows_ = false;  ///< pins, obstacles, a gripper or a tool follow frames
   std::optional<RecordedSurroundings> surroundings_;
   std::optional<BagTransforms> transforms_;  ///< for known surfaces
   std::vector<RecordedSurface> surfaces_;

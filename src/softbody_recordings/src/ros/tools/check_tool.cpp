@@ -25,7 +25,7 @@ int runCheckTool(int argc, char** argv) {
   addCameraOptions(&app, &config.camera);
   addAllowOutside(&app, &scope);
   return runTool(&app, argc, argv, [&] {
-    const ToolDescription description = loadToolDescription(tool, scope);
+    const ToolDescription description = loadToolWithMarkers(tool, scope);
     for (const std::string& warning : description.warnings) fmt::print(stderr, "check_tool: {}\n", warning);
     ToolCalibrationCheck check(description);
     const rosbag::Bag bag = openBag(input);

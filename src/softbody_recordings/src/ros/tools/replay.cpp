@@ -15,6 +15,19 @@
 namespace softbody {
 namespace {
 
+void declareGripper(CLI::App* app, ReplayOptions* options) {
+  app->add_option("--gripper", options->gripper,
+                  "YAML of a gripper, or the frame between its fingers, in the bag's tf: what it grips is "
+                  "held; replaces the parameter");
+  app->add_option("--gripper-frame", options->gripper_frame,
+                  "frame between a gripper's fingers; replaces that of --gripper and the parameter");
+  app->add_option("--gripper-fingers", options->gripper_fingers,
+                  "frames of the fingers, separated by spaces; replaces the parameter");
+  app->add_option("--gripper-closed", options->gripper_closed,
+                  "topic (std_msgs/Bool) that says when the gripper is closed; default: of the gripper's "
+                  "YAML, or /gripper/closed");
+}
+
 void declareInput(CLI::App* app, ReplayOptions* options) {
   app->add_option("input", options->input, "bag with the camera topics")
       ->required()
@@ -32,6 +45,10 @@ void declareInput(CLI::App* app, ReplayOptions* options) {
       app->add_option("--tool", options->tool,
                       "tool YAML: the tool is tracked, and its blade cuts the bodies that it meets")
           ->check(CLI::ExistingFile);
+  app->add_option("--blade-frame", options->blade_frame,
+                  "frame in the bag's tf that carries the tool, in place of its markers; replaces the "
+                  "parameter")
+      ->needs(tool);
   app->add_option("--journal", options->journal, "bag with cuts to repeat, instead of a tool")
       ->check(CLI::ExistingFile)
       ->excludes(tool);
@@ -41,14 +58,7 @@ void declareInput(CLI::App* app, ReplayOptions* options) {
   app->add_option("--robot", options->robot,
                   "URDF: the robot's links, where the bag's tf says they are, are not taken for the body")
       ->check(CLI::ExistingFile);
-  app->add_option("--gripper-frame", options->gripper_frame,
-                  "frame between a gripper's fingers, in the bag's tf: what it grips is held; replaces the "
-                  "parameter");
-  app->add_option("--gripper-fingers", options->gripper_fingers,
-                  "frames of the fingers, separated by spaces; replaces the parameter");
-  app->add_option("--gripper-closed", options->gripper_closed,
-                  "topic (std_msgs/Bool) that says when the gripper is closed")
-      ->capture_default_str();
+  declareGripper(app, options);
   addCameraOptions(app, &options->camera);
   addAllowOutside(app, &options->scope);
 }

@@ -142,7 +142,7 @@ int scan(const Arguments& arguments) {
   options.camera = arguments.camera;
   options.motion = arguments.motion;
   options.fixed_frame = arguments.fixed_frame;
-  options.sheet = loadToolDescription(arguments.sheet);
+  options.sheet = loadToolWithMarkers(arguments.sheet);
   std::vector<PosedRecording> recordings;
   std::string report;
   for (const std::string& bag : arguments.recordings) {

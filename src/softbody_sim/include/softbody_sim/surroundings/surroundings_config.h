@@ -21,11 +21,13 @@ struct PinOptions {
 struct SurroundingsConfig {
   std::vector<ObstacleDescription> obstacles;
   std::optional<PinRegion> gripper;  ///< the space between the fingers; the fingers are obstacles
+  std::string gripper_closed;        ///< topic (std_msgs/Bool) that says whether the gripper is closed
   PinOptions pins;
 };
 
 /// @param target_accuracy_m standard deviation of a target of weight 1. @param unknown receives unknown keys
-/// of the obstacles. @throw std::invalid_argument with key, value and allowed values.
+/// of the obstacles and of the gripper's YAML. @throw std::invalid_argument with key, value and allowed
+/// values.
 SurroundingsConfig readSurroundingsConfig(Parameters& parameters, double target_accuracy_m,
                                           std::vector<std::string>* unknown);
 

@@ -21,7 +21,11 @@ SurroundingsConfig readSurroundingsConfig(Parameters& parameters, double target_
   config.pins.conflict_m = conflictLimit(config.pins.accuracy_m, target_accuracy_m);
   config.pins.frame_timeout_s = parameters.number("frame_timeout_s", config.pins.frame_timeout_s, 0.0, 1e3);
   config.obstacles = readObstacles(parameters, unknown);
-  config.gripper = readGripper(parameters, &config.obstacles);
+  if (const auto gripper = readGripper(parameters, unknown)) {
+    config.gripper = gripper->space;
+    config.gripper_closed = gripper->closed;
+    config.obstacles.insert(config.obstacles.end(), gripper->fingers.begin(), gripper->fingers.end());
+  }
   return config;
 }
 

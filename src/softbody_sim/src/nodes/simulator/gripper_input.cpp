@@ -5,16 +5,15 @@
 #include <stdexcept>
 #include <utility>
 
-#include "softbody_common/topics.h"
-
 namespace softbody {
 
-GripperInput::GripperInput(ros::NodeHandle node, ros::NodeHandle private_node, const PinRegion& gripper,
-                           const Simulator* simulator, SurroundingsTracker* surroundings)
-    : gripper_(gripper),
+GripperInput::GripperInput(ros::NodeHandle node, ros::NodeHandle private_node,
+                           const SurroundingsConfig& config, const Simulator* simulator,
+                           SurroundingsTracker* surroundings)
+    : gripper_(*config.gripper),
       simulator_(simulator),
       surroundings_(surroundings),
-      closed_(node.subscribe(topics::kGripperClosed, 10, &GripperInput::onClosed, this)),
+      closed_(node.subscribe(config.gripper_closed, 10, &GripperInput::onClosed, this)),
       grip_(private_node.advertiseService("grip", &GripperInput::onGrip, this)) {}
 
 void GripperInput::onClosed(const std_msgs::BoolConstPtr& message) {

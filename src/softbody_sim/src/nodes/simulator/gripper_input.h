@@ -11,12 +11,12 @@
 
 namespace softbody {
 
-/// A gripper that others open and close: on the topic `gripper/closed`, which counts when it changes, or by
-/// the service ~grip. Closed, it holds what lies between its fingers.
+/// A gripper that others open and close: on a topic, which counts when it changes, or by the service ~grip.
+/// Closed, it holds what lies between its fingers.
 class GripperInput {
  public:
-  /// @param gripper the box between the fingers. @param simulator, surroundings outlive this.
-  GripperInput(ros::NodeHandle node, ros::NodeHandle private_node, const PinRegion& gripper,
+  /// @param config with a gripper. @param simulator, surroundings outlive this.
+  GripperInput(ros::NodeHandle node, ros::NodeHandle private_node, const SurroundingsConfig& config,
                const Simulator* simulator, SurroundingsTracker* surroundings);
 
  private:

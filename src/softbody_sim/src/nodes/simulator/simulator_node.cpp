@@ -49,7 +49,7 @@ SimulatorNode::SimulatorNode(ros::NodeHandle node, const ros::NodeHandle& privat
               {[this] { return simulator_.topology().revision; },
                [this](NextObject* next) { useObject(next); }}) {
   if (options.surroundings.gripper)
-    gripper_.emplace(node, private_node, *options.surroundings.gripper, &simulator_, &surroundings_);
+    gripper_.emplace(node, private_node, options.surroundings, &simulator_, &surroundings_);
   for (const PinRegion& pin : object.pins) surroundings_.addPin(pin, object.model.volume.rest_vertices);
   publisher_.publishEdited(simulator_, {});
   const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();

@@ -45,10 +45,12 @@ struct ToolObservation {
 /// ToolTracker::reason() of a frame without any of the tool's markers.
 constexpr char kNoMarkerSeen[] = "no marker of the tool is seen";
 
-/// Tracks a tool by the corners of its markers and the depth on them, all markers together.
+/// Tracks a tool by the corners of its markers and the depth on them, all markers together. A tool with a
+/// frame of tf is where the frame is, exactly.
 class ToolTracker {
  public:
-  /// @throw std::invalid_argument if the description has no markers, or an unknown dictionary.
+  /// @throw std::invalid_argument if the description has neither markers nor a frame, or an unknown
+  /// dictionary.
   explicit ToolTracker(const ToolDescription& tool, const ToolTrackerConfig& config = {});
   ~ToolTracker();
 
@@ -56,6 +58,11 @@ class ToolTracker {
   /// frame of another pass resets the tracker. Motion is predicted in the fixed frame: without a camera pose
   /// there (frame.placed) the tool is neither predicted nor bridged. @param timer may be null.
   std::optional<ToolObservation> track(const RgbdFrame& frame, StageTimer* timer);
+
+  /// The same for a tool with a frame, which no image is needed for. @param T_camera_tool at the stamp;
+  /// empty: tf does not know it.
+  std::optional<ToolObservation> follow(Nanoseconds stamp,
+                                        const std::optional<Eigen::Isometry3d>& T_camera_tool);
 
   const ToolDescription& tool() const;
   /// Why the tool's blade may not cut in the last frame; empty: it may.

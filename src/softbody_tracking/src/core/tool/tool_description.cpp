@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <stdexcept>
 
 #include "softbody_common/blade.h"
 #include "softbody_common/files/yaml_map_reader.h"
@@ -51,6 +52,17 @@ void readMarkers(YamlMapReader& tool, const std::string& path, ToolDescription* 
       tool.fail(list[i],
                 fmt::format("tool/markers[{}]/id is {}, which another marker has; ids must differ", i, id));
   }
+}
+
+/// The frame, or else the markers.
+void readPlace(YamlMapReader& tool, const std::string& path, FileScope scope, ToolDescription* description) {
+  description->frame = tool.text("frame");
+  if (description->frame.empty()) {
+    description->dictionary = readDictionary(tool, scope);
+    return readMarkers(tool, path, description);
+  }
+  if (tool.has("markers"))
+    tool.fail(tool.get("markers"), "tool has a frame and markers; allowed: a frame of tf, or markers");
 }
 
 Points readBlade(YamlMapReader& tool) {
@@ -101,8 +113,7 @@ ToolDescription loadToolDescription(const std::string& yaml_path, FileScope scop
   YamlMapReader file(parseYamlFile(yaml_path), yaml_path, "");
   YamlMapReader tool = file.map("tool");
   ToolDescription description;
-  description.dictionary = readDictionary(tool, scope);
-  readMarkers(tool, yaml_path, &description);
+  readPlace(tool, yaml_path, scope, &description);
   description.blade = readBlade(tool);
   checkSize(tool, description);
   if (description.blade.rows() > 0) {
@@ -112,6 +123,23 @@ ToolDescription loadToolDescription(const std::string& yaml_path, FileScope scop
   tool.warnOfUnknown(&description.warnings);
   file.warnOfUnknown(&description.warnings);
   return description;
+}
+
+ToolDescription loadToolWithMarkers(const std::string& yaml_path, FileScope scope) {
+  ToolDescription description = loadToolDescription(yaml_path, scope);
+  if (description.markers.empty())
+    throw std::invalid_argument(
+        fmt::format("{}: tool/frame is '{}', so the tool has no markers; give tool/markers instead",
+                    yaml_path, description.frame));
+  return description;
+}
+
+ToolDescription inFrame(ToolDescription tool, const std::string& frame) {
+  if (frame.empty()) return tool;
+  tool.frame = frame;
+  tool.markers.clear();
+  tool.dictionary.clear();
+  return tool;
 }
 
 Eigen::Matrix<double, 3, 4> markerCorners(const ToolMarker& marker) {

@@ -99,17 +99,17 @@ ToolTrackerConfig readToolTrackerConfig(Parameters& parameters) {
 
 struct ToolTracker::Implementation {
   Implementation(const ToolDescription& description, const ToolTrackerConfig& tracker_config)
-      : tool(description),
-        config(tracker_config),
-        detector(description.dictionary),
-        noise(tracker_config.corner_std_px) {
+      : tool(description), config(tracker_config), noise(tracker_config.corner_std_px) {
+    if (!tool.frame.empty()) return;
     if (tool.markers.empty()) throw std::invalid_argument("a tool without markers cannot be tracked");
+    detector.emplace(description.dictionary);
   }
 
   std::vector<MarkerMeasurement> measure(const RgbdFrame& frame, const cv::Rect& region,
                                          int window_px) const {
     std::vector<MarkerMeasurement> found;
-    for (const MarkerDetection& detection : detector.detect(grayOf(frame.color, region), region, window_px)) {
+    for (const MarkerDetection& detection :
+         detector->detect(grayOf(frame.color, region), region, window_px)) {
       const auto marker = std::find_if(tool.markers.begin(), tool.markers.end(),
                                        [&](const ToolMarker& m) { return m.id == detection.id; });
       if (marker == tool.markers.end()) continue;
@@ -126,7 +126,7 @@ struct ToolTracker::Implementation {
       return toolHypotheses(measurements, frame.camera, predicted, noise, config);
     };
     const auto expected =
-        predicted ? expectedMarkers(tool, detector.cells(), frame.camera, *predicted) : std::nullopt;
+        predicted ? expectedMarkers(tool, detector->cells(), frame.camera, *predicted) : std::nullopt;
     std::size_t turn = lost_frames;
     std::vector<ToolHypothesis> hypotheses;
     if (expected && !expected->region.empty()) {
@@ -217,7 +217,7 @@ struct ToolTracker::Implementation {
 
   ToolDescription tool;
   ToolTrackerConfig config;
-  MarkerDetector detector;
+  std::optional<MarkerDetector> detector;  ///< of a tool with markers
   CornerNoise noise;
   std::optional<PoseMotion> motion;  ///< in the fixed frame
   std::size_t lost_frames = 0;       ///< since a pose was found
@@ -246,6 +246,21 @@ std::optional<ToolObservation> ToolTracker::track(const RgbdFrame& frame, StageT
   }
   const std::optional<ToolObservation> bridged = self.bridge(frame);
   return bridged ? bridged : observation;
+}
+
+std::optional<ToolObservation> ToolTracker::follow(Nanoseconds stamp,
+                                                   const std::optional<Eigen::Isometry3d>& T_camera_tool) {
+  Implementation& self = *implementation_;
+  if (!T_camera_tool) {
+    self.reason = fmt::format("tf gives no pose of its frame '{}'", self.tool.frame);
+    return std::nullopt;
+  }
+  self.reason.clear();
+  ToolObservation observation;
+  observation.stamp = stamp;
+  observation.T_camera_tool = *T_camera_tool;
+  observation.cuts = true;
+  return observation;
 }
 
 const ToolDescription& ToolTracker::tool() const { return implementation_->tool; }

@@ -1,6 +1,7 @@
 #include "nodes/tool_tracker/tool_tracker_node.h"
 
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 #include "softbody_common/ros/frame_name.h"
@@ -16,7 +17,17 @@ ToolDescription loadTool(Parameters& parameters) {
       parameters.flag("allow_outside", false) ? FileScope::kAnywhere : FileScope::kOwnFolder;
   ToolDescription tool = loadToolDescription(parameters.requiredText("tool"), scope);
   for (const std::string& warning : tool.warnings) ROS_WARN_STREAM(warning);
+  tool = inFrame(std::move(tool), parameters.text("blade_frame", ""));
+  tool.frame = frameName(tool.frame, "the tool");
   return tool;
+}
+
+/// @throw std::invalid_argument if the tool's own frame is the one that it follows.
+std::string requireOther(const std::string& own_frame, const std::string& followed) {
+  if (own_frame == followed)
+    throw std::invalid_argument("the tool follows the frame '" + own_frame +
+                                "', which this node itself sends; set tool_frame to another name");
+  return own_frame;
 }
 
 }  // namespace
@@ -29,7 +40,8 @@ ToolTrackerNode::ToolTrackerNode(const ros::NodeHandle& handle, const ros::NodeH
     : output_frame_(parameters),
       tracker_(loadTool(parameters), readToolTrackerConfig(parameters)),
       publisher_(handle, tracker_.tool().blade,
-                 output_frame_.claim(ownFrame(parameters, "tool_frame", private_handle, "tool"))),
+                 output_frame_.claim(requireOther(ownFrame(parameters, "tool_frame", private_handle, "tool"),
+                                                  tracker_.tool().frame))),
       stamps_(handle.resolveName(topics::kRgbRect)),
       watchdog_(readSilenceTimeout(parameters)),
       images_(handle, [this](const RectifiedImages& images) { onFrame(images); }),
@@ -45,7 +57,8 @@ void ToolTrackerNode::onFrame(const RectifiedImages& images) try {
   frame.pass = stamps_.pass();
   placeCamera(header, &frame);
   StageTimer timer;
-  last_ = tracker_.track(frame, &timer);
+  const bool follows = !tracker_.tool().frame.empty();
+  last_ = follows ? tracker_.follow(frame.stamp, placeOfTool(header, frame)) : tracker_.track(frame, &timer);
   frame_error_.clear();
   const auto warning = dropouts_.update(frame.stamp, last_, tracker_.reason(),
                                         [&] { return whyMarkersAreMissed(tracker_.tool(), frame.color); });
@@ -68,6 +81,22 @@ void ToolTrackerNode::placeCamera(const std_msgs::Header& header, RgbdFrame* fra
   ROS_WARN_STREAM_THROTTLE(5.0, "the tool is not predicted and has no trail: " << tf_error_);
 }
 
+std::optional<Eigen::Isometry3d> ToolTrackerNode::placeOfTool(const std_msgs::Header& header,
+                                                              const RgbdFrame& frame) try {
+  if (!frame.placed) return std::nullopt;
+  std_msgs::Header tool = header;
+  tool.frame_id = tracker_.tool().frame;
+  const Eigen::Isometry3d T_fixed_tool =
+      output_frame_.poseOf(tool, header.frame_id, output_frame_.timeout_s());
+  tool_tf_error_.clear();
+  return frame.T_fixed_camera.inverse() * T_fixed_tool;
+} catch (const tf2::TransformException& error) {
+  tool_tf_error_ = error.what();
+  ROS_WARN_STREAM_THROTTLE(5.0, "the blade cuts nothing: tf does not say where "
+                                    << tracker_.tool().frame << " is: " << tool_tf_error_);
+  return std::nullopt;
+}
+
 void ToolTrackerNode::publish(const std_msgs::Header& header, const RgbdFrame& frame) {
   publisher_.publishPose(header, *last_);
   if (!last_->cuts) return;
@@ -85,7 +114,8 @@ void ToolTrackerNode::diagnose(NodeDiagnostics::Status& status) const {
   if (!dropouts_.missedFrames().empty()) status.add("not seen in", dropouts_.missedFrames());
   if (!dropouts_.cause().empty()) status.add("cause", dropouts_.cause());
   if (!last_) {
-    const std::string cause = dropouts_.cause().empty() ? tracker_.reason() : dropouts_.cause();
+    std::string cause = dropouts_.cause().empty() ? tracker_.reason() : dropouts_.cause();
+    if (!tool_tf_error_.empty()) cause += ": " + tool_tf_error_;
     return status.summary(DiagnosticStatus::WARN, "not seen: " + cause);
   }
   if (last_->bridged) {

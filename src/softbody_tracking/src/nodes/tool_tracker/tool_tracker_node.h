@@ -17,7 +17,8 @@
 
 namespace softbody {
 
-/// Rectified images in; the tool's pose with covariance, its blade and its tf out.
+/// Rectified images in; the tool's pose with covariance, its blade and its tf out. A tool with a frame is
+/// not looked for in the images: its pose comes from tf, at the stamp of each image.
 class ToolTrackerNode {
  public:
   /// @throw std::invalid_argument for a bad parameter or tool YAML.
@@ -29,6 +30,7 @@ class ToolTrackerNode {
 
   void onFrame(const RectifiedImages& images);
   void placeCamera(const std_msgs::Header& header, RgbdFrame* frame);
+  std::optional<Eigen::Isometry3d> placeOfTool(const std_msgs::Header& header, const RgbdFrame& frame);
   void publish(const std_msgs::Header& header, const RgbdFrame& frame);
   void diagnose(NodeDiagnostics::Status& status) const;
   void diagnoseObservation(NodeDiagnostics::Status& status) const;
@@ -41,7 +43,8 @@ class ToolTrackerNode {
   StampGate stamps_;                     ///< of the frames
   std::optional<ToolObservation> last_;  ///< of the last frame
   std::string frame_error_;              ///< why the last frame could not be used; empty: it could
-  std::string tf_error_;  ///< why tf gave no pose of the camera for the last frame; empty: it did
+  std::string tf_error_;       ///< why tf gave no pose of the camera for the last frame; empty: it did
+  std::string tool_tf_error_;  ///< likewise of the tool's frame
   FrameWatchdog watchdog_;
 
   RectifiedImageSubscriber images_;

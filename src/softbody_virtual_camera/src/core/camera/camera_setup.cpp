@@ -59,7 +59,7 @@ ScanOptions scanOptions(const CameraSetup& setup) {
         setup.camera_motion, setup.scene));
   ScanOptions options{std::nullopt, setup.jerks, setup.camera_tf};
   const std::string sheet = setup.sheet.empty() ? setup.config_folder + "/sheet.yaml" : setup.sheet;
-  if (sheet != "none") options.sheet = loadToolDescription(sheet, setup.scope);
+  if (sheet != "none") options.sheet = loadToolWithMarkers(sheet, setup.scope);
   return options;
 }
 
