@@ -1,7 +1,6 @@
 #!/usr/bin/env python3
 """Bags with compressed images, with other topic names, with shifted depth, and no bag at all."""
 import os
-import struct
 import subprocess
 import sys
 import tempfile
@@ -9,35 +8,15 @@ import unittest
 
 import numpy as np
 import rosbag
-import rospkg
 import rostest
-from sensor_msgs.msg import CompressedImage
 
 sys.path.append(os.path.dirname(os.path.abspath(__file__)))
-from driver_camera import png  # pylint: disable=wrong-import-position
+from compressed_bag import BAG, COLOR, DEPTH, SHARE, array, compress, copy_bag  # pylint: disable=wrong-import-position
 
-SHARE = rospkg.RosPack().get_path("softbody_bringup")
-BAG, OBJECT = f"{SHARE}/rosbags/bend_small.bag", f"{SHARE}/config/sponge.yaml"
-COLOR, DEPTH = "/camera/color/image_raw", "/camera/aligned_depth_to_color/image_raw"
+OBJECT = f"{SHARE}/config/sponge.yaml"
 RENAMED = {COLOR: "/rgb/image_raw", "/camera/color/camera_info": "/rgb/camera_info",
            DEPTH: "/depth_to_rgb/image_raw", "/camera/aligned_depth_to_color/camera_info": "/depth_to_rgb/camera_info"}
 NAMES = ["--color", "/rgb/image_raw", "--depth", "/depth_to_rgb/image_raw"]
-
-
-def array(image):
-    if image.encoding == "16UC1":
-        return np.frombuffer(image.data, np.uint16).reshape(image.height, image.width)
-    pixels = np.frombuffer(image.data, np.uint8).reshape(image.height, image.width, 3)
-    return pixels if image.encoding == "rgb8" else pixels[..., ::-1]
-
-
-def compress(topic, image):
-    if topic not in (COLOR, DEPTH):
-        return topic, image
-    packed = CompressedImage(header=image.header)
-    packed.format = f"{image.encoding}; png compressed bgr8" if topic == COLOR else "16UC1; compressedDepth png"
-    packed.data = png(array(image)) if topic == COLOR else struct.pack("<iff", 0, 0, 0) + png(array(image))
-    return topic + ("/compressed" if topic == COLOR else "/compressedDepth"), packed
 
 
 def shift(topic, image):
@@ -60,11 +39,7 @@ class CameraBags(unittest.TestCase):
         return os.path.join(self.folder.name, name)
 
     def copy(self, name, change):
-        with rosbag.Bag(self.path(name), "w") as copied:
-            for topic, message, stamp in rosbag.Bag(BAG):
-                if not topic.startswith("/ground_truth"):
-                    copied.write(*change(topic, message), stamp)
-        return self.path(name)
+        return copy_bag(self.path(name), change)
 
     def surfaces(self, bag, *names):
         result = self.path("result.bag")

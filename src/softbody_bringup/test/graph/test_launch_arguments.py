@@ -4,6 +4,7 @@ all that need it, through every launch file."""
 import importlib.machinery
 import importlib.util
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -12,10 +13,13 @@ import unittest
 import rospkg
 import rostest
 import yaml
+from roslaunch import config as roslaunch_config
 
 
+LAUNCH = os.path.join(rospkg.RosPack().get_path("softbody_bringup"), "launch")
 RVIZ = os.path.join(rospkg.RosPack().get_path("softbody_bringup"), "rviz")
 # Launch files with the graph, and what they need.
+CAMERAS = [f"cameras/{name}.launch" for name in ("realsense", "azure_kinect", "openni2", "zed")]
 GRAPHS = {"track.launch": ["object:=/o.yaml"], "rig.launch": ["object:=/o.yaml"], "demo.launch": [],
           "playback.launch": ["object:=/o.yaml", "bag:=/b.bag"]}
 
@@ -89,6 +93,54 @@ class LaunchArguments(unittest.TestCase):
             for asked in ([], wanted):
                 nodes = roslaunch(self.directory.name, "--nodes", "softbody_bringup", launch, *arguments, *asked).split()
                 self.assertEqual(helpers & {node.rsplit("/", 1)[-1] for node in nodes}, helpers if asked else set(), launch)
+
+    def test_the_gripper_is_a_file_or_a_frame(self):
+        for launch in GRAPHS:
+            for given, expected in (("my/gripper.yaml", f"{self.directory.name}/my/gripper.yaml"), ("tool0", "tool0")):
+                parameters = self.parameters(launch, f"gripper:={given}", "gripper_closed:=/claw/closed")
+                named = {key.rsplit("/", 1)[1]: value for key, value in parameters.items() if "gripper" in key}
+                self.assertEqual(named, {"gripper": expected, "gripper_closed": "/claw/closed"}, launch)
+
+    def test_blade_frame(self):
+        for launch in GRAPHS:
+            self.assertEqual(self.parameters(launch, "blade_frame:=tool0")["/softbody/tool_tracker/blade_frame"], "tool0", launch)
+        self.assertNotIn("/softbody/tool_tracker/blade_frame", self.parameters("track.launch"))
+
+    def arguments(self, launch):
+        """Names of a launch file's arguments, all of them with a description."""
+        listed = roslaunch(self.directory.name, "--ros-args", f"{LAUNCH}/{launch}")
+        self.assertNotIn("undocumented", listed, launch)
+        return set(re.findall(r"^\s+(\w+)(?: \(default .*\))?: ", listed, re.MULTILINE))
+
+    def test_every_launch_file_has_the_arguments_of_the_graph(self):
+        """A recording has no driver whose nodelet manager could be joined."""
+        graph = self.arguments("track.launch")
+        self.assertIn("gripper", graph)
+        for launch in ("rig.launch", *CAMERAS):
+            self.assertEqual(graph - self.arguments(launch), set(), launch)
+        self.assertEqual(graph - self.arguments("playback.launch"), {"manager"})
+
+    def test_arguments_reach_the_graph_through_the_launch_file_of_a_camera(self):
+        for launch in CAMERAS:
+            parameters = yaml.safe_load(roslaunch(self.directory.name, "--dump-params", f"{LAUNCH}/{launch}",
+                                                  "object:=/o.yaml", "robot:=arm", "gripper:=tool0", "color_transport:=compressed"))
+            self.assertEqual(parameters["/softbody/feature_tracker/robot"], "arm", launch)
+            self.assertEqual(parameters["/softbody/simulator/gripper"], "tool0", launch)
+            self.assertEqual(parameters["/softbody/camera_ingest/color_transport"], "compressed", launch)
+
+    def test_nodes_run_on_another_machine_and_rviz_here(self):
+        with open(f"{self.directory.name}/lab.launch", "w", encoding="utf-8") as file:
+            file.write('<launch><machine name="tracking" address="192.0.2.7" env-loader="/lab/env.sh"/></launch>')
+        for nodelets in ("true", "false"):
+            places = {}
+            for machines in ("none", f"{self.directory.name}/lab.launch"):
+                loaded = roslaunch_config.load_config_default(
+                    [(f"{LAUNCH}/track.launch", ["object:=/o.yaml", "tool:=/t.yaml", "rviz:=true", "aggregator:=true",
+                                                 f"nodelets:={nodelets}", f"machines:={machines}"])], None)
+                places[machines] = {node.name: node.machine.address for node in loaded.nodes}
+            here, there = places.values()
+            self.assertEqual({name for name, address in there.items() if address != "192.0.2.7"}, {"rviz"})
+            self.assertEqual(set(here.values()), {"localhost"})
 
     def test_output_frame(self):
         for launch in GRAPHS:

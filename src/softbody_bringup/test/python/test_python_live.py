@@ -13,6 +13,7 @@ import rospkg
 import rospy
 import rostest
 from geometry_msgs.msg import Pose, Quaternion
+from sensor_msgs.msg import PointCloud2
 from softbody_msgs.msg import MeshState, Targets
 from softbody_msgs.srv import Release, SetPose, SetPoseResponse
 from std_srvs.srv import Trigger, TriggerResponse
@@ -126,6 +127,14 @@ class PythonLive(unittest.TestCase):
         with self.assertRaisesRegex(softbody.Refused, "/softbody/simulator/pin: "):
             self.body.pin("grip", [5, 5, 5], [6, 6, 6])
 
+    def test_grip(self):
+        state = self.body.wait(timeout_s=60)
+        self.assertEqual(self.body.grip(), len(state.volume.vertices))
+        self.wait(lambda: "/softbody/reaction/gripper" in [name for name, _ in rospy.get_published_topics()])
+        self.assertEqual(self.body.grip(False), 0)
+        with self.assertRaisesRegex(softbody.Refused, "'gripper'"):
+            self.body.release("gripper")
+
     def test_closest_point(self):
         state = self.body.wait(timeout_s=60)
         top = state.vertices[state.vertices[:, 2].argmax()].astype(float)
@@ -221,6 +230,27 @@ class PythonLive(unittest.TestCase):
         output = self.example("distance_to_body.py", *(top + [0, 0, 0.1]), 3).splitlines()
         self.assertEqual(len(output), 3)
         self.assertIn(": 100.0 mm to vertex", output[-1])
+
+    def test_example_measured_distance(self):
+        """Points 3 mm outside of the middle of each triangle of the body, which is at rest."""
+        state = self.body.wait(timeout_s=60)
+        a, b, c = (state.vertices[state.triangles[:, k]].astype(float) for k in range(3))
+        normals = np.cross(b - a, c - a)
+        points = (a + b + c) / 3 + 0.003 * normals / np.linalg.norm(normals, axis=1, keepdims=True)
+        cloud = PointCloud2(height=1, width=len(points), point_step=16, row_step=16 * len(points), is_dense=True,
+                            data=np.float32(np.hstack([points, 0 * points[:, :1]])).tobytes())
+        publisher = rospy.Publisher("/softbody/points", PointCloud2, queue_size=10)
+
+        def publish(message):  # before the state of its frame is there
+            cloud.header.stamp = message.header.stamp + 3 * PERIOD
+            publisher.publish(cloud)
+
+        subscriber = rospy.Subscriber("/softbody/surface/state", MeshState, publish)
+        self.addCleanup(subscriber.unregister)
+        lines = self.example("measured_distance.py", 60).splitlines()
+        self.assertTrue(lines)
+        for line in lines:
+            self.assertIn(f": {len(points)} points, mean +3.00 mm", line)
 
     def test_example_pin(self):
         self.assertRegex(self.example("pin_to_gripper.py", "gripper", 0.5), "^[1-9][0-9]* vertices of the volume follow gripper")

@@ -10,7 +10,7 @@ from softbody_msgs.msg import MeshState, MeshTopology, PredictPlansGoal, TetTopo
 from softbody_msgs.srv import (ClosestPoint, ClosestPointRequest, CutBody, CutBodyRequest, LoadObject, Pin, PinRequest,
                                Predict, PreviewCut, PreviewCutRequest, Release, SaveMesh, SetMaterial, SetObstacle,
                                SetObstacleRequest, SetPose)
-from std_srvs.srv import Trigger
+from std_srvs.srv import SetBool, Trigger
 
 from softbody.errors import Refused
 from softbody.join import Joiner
@@ -176,6 +176,16 @@ class Body:
     def release(self, name):
         """Lets a pin go, or removes an obstacle."""
         self._call("simulator/release", Release, name)
+
+    def grip(self, closed=True):
+        """Closes the gripper of the graph (launch argument gripper), or opens it. Closed, it holds what is between its
+        fingers, until it opens.
+
+        @return the number of the volume's vertices that are held now. If the frame of the gripper has no pose yet, it
+        takes hold later, and this is 0.
+        """
+        answer = self._call("simulator/grip", SetBool, closed)
+        return int(answer.message.split()[0]) if closed else 0
 
     def predict(self, plans, times, time_step_s=0.0):
         """Simulates plans from the present state. The tracked body does not change.

@@ -1,0 +1,53 @@
+#!/usr/bin/env python3
+"""playback.launch finds out whether a bag has raw or compressed images, and takes the transports that it is given."""
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import rospy
+import rostest
+from softbody_msgs.msg import MeshState, TrackingStatus
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path += [os.path.join(HERE, "..", "camera"), os.path.join(HERE, "..", "shared")]
+from compressed_bag import BAG, SHARE, compress, copy_bag  # pylint: disable=wrong-import-position
+from recorder import Recorder  # pylint: disable=wrong-import-position
+
+
+class CompressedPlayback(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        scratch = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(scratch.cleanup)
+        cls.compressed = copy_bag(os.path.join(scratch.name, "compressed.bag"), compress)
+
+    def expect_tracking(self, bag, *arguments):
+        recorder = Recorder(softbody__surface__state=MeshState, softbody__status=TrackingStatus)
+        launch = subprocess.Popen(["roslaunch", "softbody_bringup", "playback.launch", f"bag:={bag}", "loop:=true",
+                                   f"object:={SHARE}/config/sponge.yaml", *arguments])
+        try:
+            recorder.wait(lambda seen: any(status.state == TrackingStatus.TRACKING for status in seen["softbody/status"]),
+                          f"TRACKING in {bag} with {arguments}")
+            recorder.wait_for("softbody/surface/state", 5)
+            return [rospy.get_param(f"/softbody/camera_ingest/{stream}_transport") for stream in ("color", "depth")]
+        finally:
+            launch.send_signal(signal.SIGINT)
+            launch.wait(60)
+
+    def test_transports_that_are_given(self):
+        given = self.expect_tracking(self.compressed, "color_transport:=compressed", "depth_transport:=compressedDepth")
+        self.assertEqual(given, ["compressed", "compressedDepth"])
+
+    def test_compressed_images_are_found(self):
+        self.expect_tracking(self.compressed)
+
+    def test_raw_images_are_found(self):
+        self.expect_tracking(BAG)
+
+
+if __name__ == "__main__":
+    rospy.init_node("test_compressed_playback")
+    rostest.rosrun("softbody_bringup", "test_compressed_playback", CompressedPlayback, sys.argv)
