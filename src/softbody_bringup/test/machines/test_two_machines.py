@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """The camera, the master and a viewer on one machine, the graph on another; a cable between them delays each packet and
-loses one of a hundred. The body is tracked as well as on one machine."""
+loses one of a hundred. The body is tracked as well as on one machine. If the clocks of the machines differ, that is told."""
 import json
 import os
 import signal
@@ -49,20 +49,30 @@ class TwoMachines(unittest.TestCase):
             os.killpg(process.pid, signal.SIGINT)
             process.wait(60)
 
-    def test_the_body_is_tracked(self):
+    def track(self, clock_offset_s):
+        """What the machine with the camera saw. Its clock is ahead by the offset."""
         self.start(0, "rosmaster", "--core", "-p", str(PORT))
         self.start(0, "rosrun", "rosout", "rosout")
         time.sleep(2.0)
         self.start(1, "roslaunch", "softbody_bringup", "track.launch", f"object:={CONFIG}/sponge.yaml",
                    "color_transport:=compressed", "depth_transport:=compressedDepth")
-        camera = self.start(0, sys.executable, f"{HERE}/camera_machine.py", str(FRAMES), "0", stdout=subprocess.PIPE,
-                            text=True)
+        camera = self.start(0, sys.executable, f"{HERE}/camera_machine.py", str(FRAMES), str(clock_offset_s),
+                            stdout=subprocess.PIPE, text=True)
         output = camera.communicate(timeout=300)[0]
         self.assertEqual(camera.returncode, 0, output)
         result = json.loads(output.splitlines()[-1])
         print("\ntwo machines:", result)
         self.assertGreaterEqual(result["compared"], FRAMES)
         self.assertLess(result["mean_error_m"], LARGEST_ERROR_M)
+        return result
+
+    def test_the_body_is_tracked(self):
+        warnings = self.track(clock_offset_s=0)["warnings"]
+        self.assertFalse([warning for warning in warnings if "clock" in warning])
+
+    def test_clocks_that_differ_are_told(self):
+        warnings = self.track(clock_offset_s=20)["warnings"]
+        self.assertTrue([warning for warning in warnings if "ahead of this machine's clock" in warning], warnings)
 
 
 if __name__ == "__main__":
