@@ -57,7 +57,7 @@ class DocExamples(unittest.TestCase):
                 ("<!-- example: bad -->\n```bash\necho 'verdict: good'\n```\n", "the verdict is good"),
                 ("<!-- example: fails -->\n```bash\nrosrun softbody_bringup validate_bag my.bag\n```\n", "exit code 0"),
                 ("```yaml\nobject:\n  visual_mesh: sponge.obj\n  pins: [{name: grip, min: [5, 5, 5], max: [6, 6, 6]}]\n```\n",
-                 "no vertex of the volume"),
+                 "contains nothing of the body at rest"),
                 ("```yaml\nfeature_tracker: {no_such_parameter: 1}\n```\n", "no_such_parameter")):
             with self.assertRaisesRegex(self.failureException, reason):
                 self.run_page(broken, "broken")

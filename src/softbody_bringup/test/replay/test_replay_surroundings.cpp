@@ -159,7 +159,7 @@ TEST_F(ReplayedSurroundings, APinThatHoldsNothingIsRefused) {
     run(options);
     FAIL();
   } catch (const std::invalid_argument& error) {
-    EXPECT_NE(std::string(error.what()).find("'end' contains no vertex"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("'end' contains nothing"), std::string::npos) << error.what();
   }
 }
 

@@ -228,7 +228,7 @@ class Surroundings(ForceCases, GripperCases, unittest.TestCase):
 
     def test_pins_that_cannot_be_held_are_refused(self):
         box = {"min": Point32(1.0, 1.0, 1.0), "max": Point32(2.0, 2.0, 2.0)}
-        self.refused(self.pin(name="hold", **box), "'hold'", "contains no vertex")
+        self.refused(self.pin(name="hold", **box), "'hold'", "contains nothing of the body", "mm outside at [", "of the visual mesh")
         self.refused(self.pin(name="finger", **box), "'finger'", "name of an obstacle")
         self.refused(self.pin(name="hold", min=box["max"], max=box["min"]), "is empty")
         self.refused(self.pin(name="no/name", **box), "no/name")

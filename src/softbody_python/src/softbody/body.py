@@ -164,10 +164,10 @@ class Body:
         self._call("simulator/set_obstacle", SetObstacle, request)
 
     def pin(self, name, low, high, frame=""):
-        """Holds the volume's vertices in a box in rest space, from the next step on.
+        """Holds what lies in a box in rest space, from the next step on.
 
         @param low, high: corners [m]. @param frame: they follow this frame of tf; empty: they stay where they are.
-        @return the number of vertices that are held.
+        @return the number of the tets' vertices that are held.
         """
         request = PinRequest(name=name, min=Point32(*low), max=Point32(*high))
         request.header.frame_id = frame

@@ -26,7 +26,7 @@ class Plan:
         return self
 
     def grip(self, name, low, high, frame=None, begin_s=0.0, end_s=None, path=None):
-        """Holds the volume's vertices in a box, where they are at `begin_s`. Lets them go at `end_s`; None: never.
+        """Holds what lies in a box, where it is at `begin_s`. Lets them go at `end_s`; None: never.
 
         @param low, high: corners [m]. @param frame: None: the box is in rest space. Otherwise it is in this frame of tf
         at present (empty: the frame of the states). It does not follow the frame; only the path moves it.

@@ -58,7 +58,7 @@ class FollowedSurroundings : public ::testing::Test {
 TEST_F(FollowedSurroundings, HeldVerticesMoveRigidlyWithTheFrame) {
   poses_["hand"] = randomPose();
   const Eigen::Isometry3d before = poses_["hand"];
-  follower_.addPin(endIn("hand"), rest_);
+  follower_.addPin(endIn("hand"), topology_);
   at(kFrame);
   for (int frame = 2; frame < 10; ++frame) {
     poses_["hand"] = randomPose();
@@ -73,7 +73,7 @@ TEST_F(FollowedSurroundings, HeldVerticesMoveRigidlyWithTheFrame) {
 }
 
 TEST_F(FollowedSurroundings, AnUnknownFrameIsSaidOnceAndWaitedFor) {
-  follower_.addPin(endIn("hand"), rest_);
+  follower_.addPin(endIn("hand"), topology_);
   ObstacleDescription ball{"ball", "elbow", Obstacle::sphere(0.05)};
   follower_.setObstacle(ball);
   for (int frame = 1; frame < 90; ++frame) {
@@ -98,7 +98,7 @@ TEST_F(FollowedSurroundings, AnUnknownFrameIsSaidOnceAndWaitedFor) {
 
 TEST_F(FollowedSurroundings, WhatFollowsASilentFrameStaysAtItsLastPose) {
   poses_["hand"] = randomPose();
-  follower_.addPin(endIn("hand"), rest_);
+  follower_.addPin(endIn("hand"), topology_);
   const std::vector<Pin> before = at(kFrame).pins;
   poses_.clear();
   for (int frame = 2; frame < 90; ++frame) {
@@ -113,7 +113,7 @@ TEST_F(FollowedSurroundings, WhatFollowsASilentFrameStaysAtItsLastPose) {
 
 TEST_F(FollowedSurroundings, AGripperHoldsWhatIsBetweenItsFingers) {
   poses_["hand"] = Eigen::Isometry3d(Eigen::Translation3d(Eigen::Vector3d(rest_.colwise().minCoeff())));
-  const std::size_t held = follower_.grip(boxIn("hand"), lookup(), rest_, kFrame);
+  const std::size_t held = follower_.grip(boxIn("hand"), lookup(), topology_, rest_, kFrame);
   EXPECT_GT(held, 0U);
   for (const Pin& pin : at(2 * kFrame).pins) {
     const Eigen::Vector3d in_box = poses_["hand"].inverse() * pin.position;
@@ -123,17 +123,19 @@ TEST_F(FollowedSurroundings, AGripperHoldsWhatIsBetweenItsFingers) {
   EXPECT_TRUE(follower_.removePin("gripper"));
   EXPECT_TRUE(at(3 * kFrame).pins.empty());
   poses_["hand"].translation().x() += 1.0;
-  EXPECT_THROW(follower_.grip(boxIn("hand"), lookup(), rest_, 3 * kFrame), std::invalid_argument);
+  EXPECT_THROW(follower_.grip(boxIn("hand"), lookup(), topology_, rest_, 3 * kFrame), std::invalid_argument);
 }
 
 TEST_F(FollowedSurroundings, ACutAddsItsVerticesToTheRegion) {
   poses_["hand"] = randomPose();
   const Eigen::Isometry3d before = poses_["hand"];
-  follower_.addPin(endIn("hand"), rest_);
+  follower_.addPin(endIn("hand"), topology_);
   const std::size_t held = at(kFrame).pins.size();
   Points cut(rest_.rows() + 2, 3);
   cut << rest_, Eigen::RowVector3d(0.005, 0.05, 0.01), Eigen::RowVector3d(0.1, 0.05, 0.01);
-  follower_.updatePins(cut, cut);
+  TetTopology edited = topology_;
+  edited.rest_vertices = cut;
+  follower_.updatePins(edited, cut);
   EXPECT_EQ(follower_.lastSurroundings().all.pins.size(), held + 1);
   poses_["hand"] = randomPose();
   const Surroundings& now = follower_.surroundingsAt(2 * kFrame, lookup(), cut, kFrame);
@@ -144,31 +146,33 @@ TEST_F(FollowedSurroundings, ACutAddsItsVerticesToTheRegion) {
 }
 
 TEST_F(FollowedSurroundings, APinAndAnObstacleHaveDifferentNames) {
-  follower_.addPin(endIn(""), rest_);
+  follower_.addPin(endIn(""), topology_);
   EXPECT_THROW(follower_.setObstacle({"end", "", Obstacle::plane()}), std::invalid_argument);
   follower_.setObstacle({"table", "", Obstacle::plane()});
   PinRegion table = endIn("");
   table.name = "table";
-  EXPECT_THROW(follower_.addPin(table, rest_), std::invalid_argument);
+  EXPECT_THROW(follower_.addPin(table, topology_), std::invalid_argument);
 }
 
 TEST_F(FollowedSurroundings, PinsOfAnotherBodyReplaceAllPins) {
   PinRegion other = endIn("");
   other.name = "other";
-  follower_.addPin(endIn("hand"), rest_);
-  follower_.replacePins({other}, 2.0 * rest_);
+  TetTopology larger = topology_;
+  larger.rest_vertices *= 2.0;
+  follower_.addPin(endIn("hand"), topology_);
+  follower_.replacePins({}, {other}, larger);
   EXPECT_EQ(follower_.pinNames(), std::vector<std::string>{"other"});
   PinRegion nowhere = endIn("");
   nowhere.min.setConstant(5.0), nowhere.max.setConstant(6.0);
-  EXPECT_THROW(follower_.replacePins({endIn("hand"), nowhere}, rest_), std::invalid_argument);
+  EXPECT_THROW(follower_.replacePins({}, {endIn("hand"), nowhere}, topology_), std::invalid_argument);
   EXPECT_EQ(follower_.pinNames(), std::vector<std::string>{"other"}) << "what is refused changes nothing";
-  follower_.replacePins({}, rest_);
+  follower_.replacePins({}, {}, topology_);
   EXPECT_TRUE(at(kFrame).pins.empty());
 }
 
 TEST_F(FollowedSurroundings, PinsOfABodyThatIsPlacedHoldItsRestShape) {
   Simulator simulator(topology_, Material(), SimulatorConfig());
-  follower_.addPin(endIn(""), rest_);
+  follower_.addPin(endIn(""), topology_);
   TargetSet targets;
   targets.reset = true;
   targets.body_pose = randomPose();
@@ -202,7 +206,7 @@ TEST_F(FollowedSurroundings, AStillBodyLoadsItsPinWithItsWeight) {
   reset.reset = true;
   simulator.step(reset, 0);
   poses_["hand"] = randomPose();
-  follower_.addPin(endIn("hand"), rest_);
+  follower_.addPin(endIn("hand"), topology_);
   const Surroundings& surroundings =
       follower_.surroundingsAt(kFrame, lookup(), simulator.state().vertices, 0);
   simulator.settle({}, surroundings);

@@ -18,9 +18,10 @@ struct SurroundingsInput {
 /// Pins, gripper and obstacles of a body, step by step, as in the simulator node.
 class BodySurroundings {
  public:
-  /// @param pins held from the start. @throw std::invalid_argument as SurroundingsFollower does.
+  /// @param pins held from the start. @param surface, volume the uncut body. @throw std::invalid_argument as
+  /// SurroundingsFollower does.
   BodySurroundings(const SurroundingsConfig& config, const std::vector<PinRegion>& pins,
-                   const Points& rest_vertices);
+                   const BodySurface& surface, const TetTopology& volume);
 
   /// What acts in the step to a stamp. @param simulator before the step. @param targets of the step.
   const Surroundings& before(Nanoseconds stamp, const SurroundingsInput& input, const Simulator& simulator,
@@ -32,7 +33,7 @@ class BodySurroundings {
   /// After a cut.
   void update(const Simulator& simulator);
   /// The body is uncut again, and not placed.
-  void restart(const Points& rest_vertices) { follower_.updatePins(rest_vertices, {}); }
+  void restart(const TetTopology& volume) { follower_.updatePins(volume, {}); }
 
   /// Warnings and notes since the last call.
   std::vector<std::string> takeLog();

@@ -8,22 +8,28 @@
 #include "softbody_sim/identification/shape_fit.h"
 #include "softbody_sim/io/surface_files.h"
 #include "softbody_sim/object/vertex_region.h"
+#include "softbody_sim/surroundings/body_surface.h"
 
 namespace softbody {
 namespace {
 
 /// The vertices of all held regions, where they are at rest.
 std::vector<Pin> pinsOf(const ShapeQuestion& question, const ObjectDescription& description,
-                        const Points& rest, const std::function<void(const std::string&)>& warn) {
+                        const ObjectModel& model, const std::function<void(const std::string&)>& warn) {
+  const BodySurface surface = BodySurface(model.visual, model.volume).in(model.volume);
+  const Points& rest = model.volume.rest_vertices;
   std::set<int> held;
   for (const std::string& region : question.pins)
-    for (const int v : verticesWhere(region, rest)) held.insert(v);
+    for (const int v : surface.verticesAtRest(fmt::format("the region '{}'", region), boxOf(region), rest))
+      held.insert(v);
   for (const PinRegion& region : description.pins) {
     if (!region.frame.empty())
       warn(
           fmt::format("pin '{}' follows frame {}; one shape has no frames, so it is held where it is at rest",
                       region.name, region.frame));
-    for (const int v : verticesIn(region, Eigen::Isometry3d::Identity(), rest)) held.insert(v);
+    for (const int v :
+         surface.verticesAtRest(fmt::format("the box of pin '{}'", region.name), region.box(), rest))
+      held.insert(v);
   }
   if (held.empty())
     throw std::invalid_argument(
@@ -55,7 +61,7 @@ MaterialAnswer answer(const ShapeQuestion& question, const ObjectDescription& de
   const SurfaceFile file = readSurfaceFile(question.shape, &warnings);
   for (const std::string& warning : warnings) warn(warning);
   ShapeObservation observation;
-  observation.surroundings.pins = pinsOf(question, description, rest, warn);
+  observation.surroundings.pins = pinsOf(question, description, model, warn);
   observation.surroundings.loads = loadsOf(question.loads, rest);
   answer.problem.observations = {observation};
   try {

@@ -8,10 +8,10 @@
 namespace softbody {
 
 BodySurroundings::BodySurroundings(const SurroundingsConfig& config, const std::vector<PinRegion>& pins,
-                                   const Points& rest_vertices)
-    : gripper_(config.gripper), follower_(config.pins) {
+                                   const BodySurface& surface, const TetTopology& volume)
+    : gripper_(config.gripper), follower_(config.pins, surface) {
   for (const ObstacleDescription& obstacle : config.obstacles) follower_.setObstacle(obstacle);
-  for (const PinRegion& pin : pins) follower_.addPin(pin, rest_vertices);
+  for (const PinRegion& pin : pins) follower_.addPin(pin, volume);
 }
 
 const Surroundings& BodySurroundings::before(Nanoseconds stamp, const SurroundingsInput& input,
@@ -32,8 +32,8 @@ void BodySurroundings::followGripper(const SurroundingsInput& input, const Simul
     return;
   }
   try {
-    follower_.grip(*gripper_, input.lookup, simulator.placed() ? simulator.state().vertices : Points(),
-                   simulator.stamp());
+    follower_.grip(*gripper_, input.lookup, simulator.topology(),
+                   simulator.placed() ? simulator.state().vertices : Points(), simulator.stamp());
   } catch (const std::invalid_argument& error) {
     log_.push_back(fmt::format("the gripper closes: {}", error.what()));
   }
@@ -44,7 +44,7 @@ void BodySurroundings::findConflicts(const std::vector<Target>& targets, const S
 }
 
 void BodySurroundings::update(const Simulator& simulator) {
-  follower_.updatePins(simulator.topology().rest_vertices, simulator.state().vertices);
+  follower_.updatePins(simulator.topology(), simulator.state().vertices);
 }
 
 std::vector<std::string> BodySurroundings::takeLog() {

@@ -31,7 +31,7 @@ Pipeline::Pipeline(const ObjectModel& model, const PipelineConfig& config,
       tracker_(config.tracker, config.picture),
       simulator_(makeSimulator(model, config.simulator, &timer_)),
       surface_(makeSurface()),
-      surroundings_(config.surroundings, config.pins, uncut_volume_.rest_vertices) {
+      surroundings_(config.surroundings, config.pins, {uncut_surface_, uncut_volume_}, uncut_volume_) {
   if (to_be_placed_ && !uncut_volume_.has_initial_pose)
     throw std::invalid_argument("the object has no initial_pose at which it can be placed");
   if (tool) tool_tracker_.emplace(*tool, config.tool_tracker);
@@ -48,7 +48,7 @@ void Pipeline::startPass() {
   simulator_.reset();
   surface_ = makeSurface();
   waiting_cuts_.clear();
-  surroundings_.restart(uncut_volume_.rest_vertices);
+  surroundings_.restart(uncut_volume_);
   tracker_.setTopologies(volumeTopology(), surfaceTopology());
 }
 

@@ -42,17 +42,19 @@ NamedSurroundings withoutFingers(const NamedSurroundings& around) {
 /// come from the images alone.
 class Followed {
  public:
-  Followed(const SurroundingsConfig& config, const std::vector<PinRegion>& pins, const Points& rest_vertices)
-      : gripper_(config.gripper), follower_(config.pins) {
+  Followed(const SurroundingsConfig& config, const std::vector<PinRegion>& pins, const ObjectModel& model)
+      : gripper_(config.gripper),
+        volume_(model.volume),
+        follower_(config.pins, {model.visual, model.volume}) {
     for (const ObstacleDescription& obstacle : config.obstacles) follower_.setObstacle(obstacle);
-    for (const PinRegion& pin : pins) follower_.addPin(pin, rest_vertices);
+    for (const PinRegion& pin : pins) follower_.addPin(pin, volume_);
   }
 
   NamedSurroundings at(Nanoseconds stamp, const SurroundingsInput& input, const Points& vertices) {
     if (gripper_ && input.gripper_closed && input.gripper_closed != closed_) {
       closed_ = input.gripper_closed;
       if (*closed_)
-        follower_.grip(*gripper_, input.lookup, vertices, stamp);
+        follower_.grip(*gripper_, input.lookup, volume_, vertices, stamp);
       else
         follower_.removePin(gripper_->name);
     }
@@ -69,6 +71,7 @@ class Followed {
  private:
   std::optional<PinRegion> gripper_;
   std::optional<bool> closed_;
+  TetTopology volume_;  ///< uncut
   SurroundingsFollower follower_;
 };
 
@@ -176,7 +179,7 @@ SeenRecording readRecording(const RecordingQuestion& question, const GraphConfig
   PipelineConfig pipeline_config = config.pipeline;
   pipeline_config.surroundings = {};
   Pipeline pipeline(model, pipeline_config);
-  Followed followed(config.pipeline.surroundings, pins, model.volume.rest_vertices);
+  Followed followed(config.pipeline.surroundings, pins, model);
   const RecordedSurroundings surroundings(bag, config.pipeline.surroundings, warn);
   BagFramesUse messages;
   messages.note = warn;

@@ -2,12 +2,14 @@
 
 #include <Eigen/Geometry>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "softbody_sim/constraints/surroundings.h"
 #include "softbody_sim/object/pin_region.h"
+#include "softbody_sim/surroundings/body_surface.h"
 
 namespace softbody {
 
@@ -57,6 +59,7 @@ struct PlannedObstacle {
 struct MotionPlan {
   std::vector<PlannedPins> pins;
   std::vector<PlannedObstacle> obstacles;
+  std::shared_ptr<const BodySurface> surface = std::make_shared<BodySurface>();  ///< in the present tets
 };
 
 }  // namespace softbody

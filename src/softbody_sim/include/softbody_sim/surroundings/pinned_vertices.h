@@ -7,15 +7,16 @@
 #include "softbody_common/types.h"
 #include "softbody_sim/constraints/surroundings.h"
 #include "softbody_sim/object/pin_region.h"
+#include "softbody_sim/surroundings/body_surface.h"
 
 namespace softbody {
 
 /// The vertices of a pin region, held at fixed positions in the region's frame. A box in a frame chooses its
-/// vertices when it takes hold.
+/// vertices when it takes hold. Surfaces are in the volume whose vertices are given.
 class PinnedVertices {
  public:
-  /// @throw std::invalid_argument if no vertex lies in a box in rest space.
-  PinnedVertices(PinRegion region, const Points& rest_vertices);
+  /// @throw std::invalid_argument if a box in rest space holds nothing: with what is nearest to it.
+  PinnedVertices(PinRegion region, const BodySurface& surface, const Points& rest_vertices);
 
   const PinRegion& region() const { return region_; }
   std::size_t vertexCount() const { return vertices_.size(); }
@@ -24,12 +25,12 @@ class PinnedVertices {
 
   /// Holds the vertices where they are now; a box in a frame, those that lie in it now. @param vertices #V by
   /// 3, in the targets' frame [m].
-  void hold(const Eigen::Isometry3d& frame_pose, const Points& vertices);
+  void hold(const BodySurface& surface, const Eigen::Isometry3d& frame_pose, const Points& vertices);
   void forgetPositions() { positions_.reset(); }
 
   /// Adds the region's new vertices after a cut, held where they are now.
   /// @param vertices in the targets' frame [m]; empty if the body is not placed.
-  void updateVertices(const Points& rest_vertices, const Points& vertices);
+  void updateVertices(const BodySurface& surface, const Points& rest_vertices, const Points& vertices);
 
   /// The region acts from the first pose of its frame on. @param pose in the targets' frame; empty: the last
   /// one stays.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -9,6 +10,7 @@
 #include "softbody_sim/constraints/obstacle_description.h"
 #include "softbody_sim/constraints/surroundings.h"
 #include "softbody_sim/dynamics/simulator.h"
+#include "softbody_sim/surroundings/body_surface.h"
 #include "softbody_sim/surroundings/followed_frame.h"
 #include "softbody_sim/surroundings/frame_lookup.h"
 #include "softbody_sim/surroundings/lasting_fault.h"
@@ -25,21 +27,24 @@ class SurroundingsFollower {
   /// Name of a pin or obstacle, and what is wrong with it in a sentence.
   using Faults = std::vector<std::pair<std::string, std::string>>;
 
-  explicit SurroundingsFollower(const PinOptions& options) : options_(options) {}
+  /// @param surface of the body, which pins are meant about.
+  explicit SurroundingsFollower(const PinOptions& options, BodySurface surface = {})
+      : options_(options), surface_(std::make_shared<BodySurface>(std::move(surface))) {}
 
   /// Holds the vertices of a region from the next surroundingsAt() on, in place of a region of the same name.
-  /// @return number of vertices that are held.
-  /// @throw std::invalid_argument if the region has no vertex, its name is not usable, or too many are held.
-  std::size_t addPin(PinRegion region, const Points& rest_vertices);
+  /// @param volume the body's tets at present. @return number of their vertices that are held.
+  /// @throw std::invalid_argument if the region holds nothing, its name is not usable, or too many are held.
+  std::size_t addPin(PinRegion region, const TetTopology& volume);
   /// Closes a gripper: holds what lies in a box in a frame, in place of a pin of the same name. If the body
   /// is not placed, or the frame has no pose, it takes hold when both are known.
   /// @param vertices of the body at a stamp; empty if it is not placed. @return number of vertices that are
   /// held at once. @throw std::invalid_argument as addPin().
-  std::size_t grip(PinRegion region, const FrameLookup& lookup, const Points& vertices, Nanoseconds stamp);
+  std::size_t grip(PinRegion region, const FrameLookup& lookup, const TetTopology& volume,
+                   const Points& vertices, Nanoseconds stamp);
   /// @return false if no pin has the name.
   bool removePin(const std::string& name);
   /// Lets all pins go and holds other regions, of another body. @throw as addPin(); nothing has changed.
-  void replacePins(const std::vector<PinRegion>& regions, const Points& rest_vertices);
+  void replacePins(BodySurface surface, const std::vector<PinRegion>& regions, const TetTopology& volume);
 
   /// Adds an obstacle, or replaces the one of the same name, from the next surroundingsAt() on.
   /// @throw std::invalid_argument if a pin has the name, or there are too many obstacles.
@@ -59,7 +64,7 @@ class SurroundingsFollower {
   std::string reportUnknownFrame(const std::string& name);
 
   /// Adds the vertices that a cut created to their regions. @param vertices empty if the body is not placed.
-  void updatePins(const Points& rest_vertices, const Points& vertices);
+  void updatePins(const TetTopology& volume, const Points& vertices);
   /// Pins hold the vertices where they are at the next surroundingsAt().
   void forgetPinPositions();
 
@@ -78,6 +83,9 @@ class SurroundingsFollower {
 
   /// The reactions of a step under the last surroundingsAt(), by name; empty if they are not of this step.
   std::vector<NamedReaction> named(const Reactions& reactions) const;
+
+  /// The surface in the body's tets at present, for plans.
+  std::shared_ptr<const BodySurface> surfaceIn(const TetTopology& volume);
 
   double pinAccuracy_m() const { return options_.accuracy_m; }
   Faults faults() const;
@@ -107,6 +115,7 @@ class SurroundingsFollower {
   void addPins(const Reactions& reactions, std::vector<NamedReaction>* named) const;
 
   PinOptions options_;
+  std::shared_ptr<const BodySurface> surface_;  ///< in the tets of the last edit while there are pins
   std::vector<PlacedObstacle> obstacles_;
   bool obstacles_changed_ = false;  ///< since the last surroundingsAt()
   std::map<std::string, HeldPin> pins_;

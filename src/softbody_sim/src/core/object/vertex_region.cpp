@@ -45,13 +45,28 @@ Eigen::AlignedBox3d boxOf(const std::string& region) {
   return box;
 }
 
+std::string nearestVertex(const Eigen::AlignedBox3d& box, const Points& vertices) {
+  Eigen::Index nearest = 0;
+  double distance = kInfinity;
+  for (Eigen::Index v = 0; v < vertices.rows(); ++v) {
+    const double outside = box.exteriorDistance(Eigen::Vector3d(vertices.row(v)));
+    if (outside < distance) distance = outside, nearest = v;
+  }
+  return fmt::format("the nearest, {:.4g} mm outside at [{:.4g}, {:.4g}, {:.4g}] m, is vertex {}",
+                     1e3 * distance, vertices(nearest, 0), vertices(nearest, 1), vertices(nearest, 2),
+                     nearest);
+}
+
 std::vector<int> verticesWhere(const std::string& region, const Points& vertices) {
   const Eigen::AlignedBox3d box = boxOf(region);
   std::vector<int> chosen;
   for (int v = 0; v < vertices.rows(); ++v) {
     if (box.contains(Eigen::Vector3d(vertices.row(v)))) chosen.push_back(v);
   }
-  if (chosen.empty()) throw std::invalid_argument(fmt::format("no vertex lies in the region '{}'", region));
+  if (chosen.empty() && vertices.rows() > 0) {
+    throw std::invalid_argument(
+        fmt::format("no vertex lies in the region '{}'; {}", region, nearestVertex(box, vertices)));
+  }
   return chosen;
 }
 

@@ -8,13 +8,15 @@ namespace softbody {
 namespace {
 
 /// At present. @param vertices then.
-Eigen::Vector3d centerOf(const PlannedPins& planned, const TetTopology& topology, const Points& vertices) {
+Eigen::Vector3d centerOf(const PlannedPins& planned, const BodySurface& surface, const TetTopology& topology,
+                         const Points& vertices) {
   if (planned.region && planned.region->in_frame)
     return planned.frame * (0.5 * (planned.region->min + planned.region->max));
   std::vector<Eigen::Vector3d> places;
   for (const Pin& pin : planned.held) places.push_back(pin.position);
   if (planned.region) {
-    for (const int v : verticesIn(*planned.region, Eigen::Isometry3d::Identity(), topology.rest_vertices))
+    for (const int v :
+         surface.verticesToHold(planned.region->box(), Eigen::Isometry3d::Identity(), topology.rest_vertices))
       places.push_back(vertices.row(v));
   }
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -28,7 +30,8 @@ PlannedSurroundings::PlannedSurroundings(const MotionPlan& plan, const TetTopolo
                                          const Points& vertices)
     : plan_(&plan), topology_(&topology), holds_(plan.pins.size()) {
   for (std::size_t k = 0; k < plan.pins.size(); ++k)
-    holds_[k] = {!plan.pins[k].region, centerOf(plan.pins[k], topology, vertices), plan.pins[k].held};
+    holds_[k] = {!plan.pins[k].region, centerOf(plan.pins[k], *plan.surface, topology, vertices),
+                 plan.pins[k].held};
   for (std::size_t k = 0; k < plan.obstacles.size(); ++k)
     if (plan.obstacles[k].acts_now) active_obstacles_.push_back(k);
 }
@@ -63,14 +66,17 @@ const Surroundings& PlannedSurroundings::during(double begin_s, double end_s, co
 void PlannedSurroundings::takeHold(const PlannedPins& planned, double time_s, const Points& vertices,
                                    Hold* hold) const {
   const Eigen::Isometry3d back = planned.path.at(time_s, hold->center).inverse();
-  const std::vector<int> held =
-      planned.region->in_frame
-          ? verticesIn(*planned.region, planned.frame.inverse() * back, vertices)
-          : verticesIn(*planned.region, Eigen::Isometry3d::Identity(), topology_->rest_vertices);
+  const bool in_frame = planned.region->in_frame;
+  const Eigen::Isometry3d T_box_points =
+      in_frame ? planned.frame.inverse() * back : Eigen::Isometry3d::Identity();
+  const Points& places = in_frame ? vertices : topology_->rest_vertices;
+  const std::vector<int> held = plan_->surface->verticesToHold(planned.region->box(), T_box_points, places);
   if (held.empty()) {
-    throw std::invalid_argument(fmt::format(
-        "pin '{}' holds nothing at {:.3g} s: no vertex of the body is in its box; move or enlarge the box",
-        planned.name, planned.period.begin_s));
+    throw std::invalid_argument(
+        fmt::format("pin '{}' holds nothing at {:.3g} s: nothing of the body is in its box; {}; move or "
+                    "enlarge the box",
+                    planned.name, planned.period.begin_s,
+                    plan_->surface->nearestTo(planned.region->box(), T_box_points, places)));
   }
   hold->began = true;
   for (const int v : held)

@@ -21,16 +21,16 @@ std::vector<int> stillHeld(const std::vector<int>& before, const std::vector<int
 
 }  // namespace
 
-PinnedVertices::PinnedVertices(PinRegion region, const Points& rest_vertices) : region_(std::move(region)) {
+PinnedVertices::PinnedVertices(PinRegion region, const BodySurface& surface, const Points& rest_vertices)
+    : region_(std::move(region)) {
   if (region_.in_frame) return;
-  vertices_ = verticesIn(region_, Eigen::Isometry3d::Identity(), rest_vertices);
-  if (vertices_.empty())
-    throw std::invalid_argument(
-        fmt::format("the box of pin '{}' contains no vertex of the volume", region_.name));
+  vertices_ =
+      surface.verticesAtRest(fmt::format("the box of pin '{}'", region_.name), region_.box(), rest_vertices);
 }
 
-void PinnedVertices::hold(const Eigen::Isometry3d& frame_pose, const Points& vertices) {
-  if (region_.in_frame) vertices_ = verticesIn(region_, frame_pose.inverse(), vertices);
+void PinnedVertices::hold(const BodySurface& surface, const Eigen::Isometry3d& frame_pose,
+                          const Points& vertices) {
+  if (region_.in_frame) vertices_ = surface.verticesToHold(region_.box(), frame_pose.inverse(), vertices);
   positions_.emplace(static_cast<Eigen::Index>(vertices_.size()), 3);
   for (std::size_t k = 0; k < vertices_.size(); ++k) {
     positions_->row(static_cast<Eigen::Index>(k)) =
@@ -38,12 +38,14 @@ void PinnedVertices::hold(const Eigen::Isometry3d& frame_pose, const Points& ver
   }
 }
 
-void PinnedVertices::updateVertices(const Points& rest_vertices, const Points& vertices) {
+void PinnedVertices::updateVertices(const BodySurface& surface, const Points& rest_vertices,
+                                    const Points& vertices) {
   const std::vector<int> before = vertices_;
   if (region_.in_frame)
-    vertices_ = stillHeld(before, verticesIn(region_, frame_pose_.inverse(), vertices), rest_vertices.rows());
+    vertices_ = stillHeld(before, surface.verticesToHold(region_.box(), frame_pose_.inverse(), vertices),
+                          rest_vertices.rows());
   else
-    vertices_ = verticesIn(region_, Eigen::Isometry3d::Identity(), rest_vertices);
+    vertices_ = surface.verticesToHold(region_.box(), Eigen::Isometry3d::Identity(), rest_vertices);
   if (vertices.rows() == 0) positions_.reset();
   if (!positions_) return;
   Points positions(static_cast<Eigen::Index>(vertices_.size()), 3);

@@ -17,7 +17,7 @@ constexpr std::size_t kMostObstacles = 1000;
 
 std::string gripsNothing(const PinRegion& region) {
   return fmt::format(
-      "pin '{}' holds nothing: no vertex of the body is in its box in frame '{}' ([{:.3g}, {:.3g}, {:.3g}] "
+      "pin '{}' holds nothing: nothing of the body is in its box in frame '{}' ([{:.3g}, {:.3g}, {:.3g}] "
       "to "
       "[{:.3g}, {:.3g}, {:.3g}] m); check that the body is tracked, and the box in rviz",
       region.name, region.frame, region.min.x(), region.min.y(), region.min.z(), region.max.x(),
@@ -106,19 +106,26 @@ std::string SurroundingsFollower::reportUnknownFrame(const std::string& name) {
   return frame->fault();
 }
 
-std::size_t SurroundingsFollower::addPin(PinRegion region, const Points& rest_vertices) {
-  requireFree(region.name);
-  return insert({std::move(region), rest_vertices});
+std::shared_ptr<const BodySurface> SurroundingsFollower::surfaceIn(const TetTopology& volume) {
+  return surface_ = std::make_shared<BodySurface>(surface_->in(volume));
 }
 
-std::size_t SurroundingsFollower::grip(PinRegion region, const FrameLookup& lookup, const Points& vertices,
-                                       Nanoseconds stamp) {
+std::size_t SurroundingsFollower::addPin(PinRegion region, const TetTopology& volume) {
   requireFree(region.name);
-  PinnedVertices held(region, {});
+  return insert({std::move(region), *surfaceIn(volume), volume.rest_vertices});
+}
+
+std::size_t SurroundingsFollower::grip(PinRegion region, const FrameLookup& lookup, const TetTopology& volume,
+                                       const Points& vertices, Nanoseconds stamp) {
+  requireFree(region.name);
+  const BodySurface& surface = *surfaceIn(volume);
+  PinnedVertices held(region, surface, {});
   const auto pose = findFrame(lookup, region.frame, stamp);
   if (pose && vertices.rows() > 0) {
-    held.hold(pose->pose, vertices);
-    if (held.vertexCount() == 0) throw std::invalid_argument(gripsNothing(region));
+    held.hold(surface, pose->pose, vertices);
+    if (held.vertexCount() == 0)
+      throw std::invalid_argument(gripsNothing(region) + "; " +
+                                  surface.nearestTo(region.box(), pose->pose.inverse(), vertices));
   }
   return insert(std::move(held));
 }
@@ -140,19 +147,22 @@ std::size_t SurroundingsFollower::insert(PinnedVertices held) {
 
 bool SurroundingsFollower::removePin(const std::string& name) { return pins_.erase(name) > 0; }
 
-void SurroundingsFollower::replacePins(const std::vector<PinRegion>& regions, const Points& rest_vertices) {
+void SurroundingsFollower::replacePins(BodySurface surface, const std::vector<PinRegion>& regions,
+                                       const TetTopology& volume) {
   SurroundingsFollower next = *this;
   next.pins_.clear();
-  for (const PinRegion& region : regions) next.addPin(region, rest_vertices);
-  next.updatePins(rest_vertices, {});
+  next.surface_ = std::make_shared<BodySurface>(std::move(surface));
+  for (const PinRegion& region : regions) next.addPin(region, volume);
+  next.updatePins(volume, {});
   *this = std::move(next);
 }
 
-void SurroundingsFollower::updatePins(const Points& rest_vertices, const Points& vertices) {
+void SurroundingsFollower::updatePins(const TetTopology& volume, const Points& vertices) {
+  if (!pins_.empty()) surfaceIn(volume);
   surroundings_.all.pins.clear();
   surroundings_.pins.clear();
   for (auto& [name, pin] : pins_) {
-    pin.held.updateVertices(rest_vertices, vertices);
+    pin.held.updateVertices(*surface_, volume.rest_vertices, vertices);
     if (pin.held.hasPositions()) appendPins(name, pin.held);
   }
 }
@@ -193,7 +203,7 @@ void SurroundingsFollower::placePins(Nanoseconds stamp, const FrameLookup& looku
     FollowedFrame& frame = entry.second.frame;
     if (!held.hasPositions() && vertices.rows() > 0) {
       const auto found = findFrame(lookup, held.region().frame, step);
-      if (found) held.hold(found->pose, vertices);
+      if (found) held.hold(*surface_, found->pose, vertices);
     }
     frame.update(lookup, stamp, &log_);
     held.setFramePose(frame.pose());

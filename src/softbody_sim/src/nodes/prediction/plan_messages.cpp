@@ -31,7 +31,9 @@ std::string frameOf(const softbody_msgs::PlannedObstacle& obstacle) {
 /// What the messages of a plan say, by name.
 class PlanReader {
  public:
-  PlanReader(const Present& present, double time_step_s) : present_(present), time_step_s_(time_step_s) {}
+  PlanReader(const Present& present, double time_step_s) : present_(present), time_step_s_(time_step_s) {
+    plan_.surface = present.surface;
+  }
 
   void addPresent();
   void add(const softbody_msgs::PlannedPin& message);
@@ -167,10 +169,9 @@ void PlanReader::add(const softbody_msgs::PlannedPin& message) {
         "frame_id is '{}', but the box is in rest space, and a plan follows no frame: set in_frame "
         "if the box is in this frame at present, or leave frame_id empty",
         shortened(message.header.frame_id)));
-  } else if (verticesIn(*pins.region, Eigen::Isometry3d::Identity(),
-                        present_.simulator->topology().rest_vertices)
-                 .empty()) {
-    throw std::invalid_argument("its box contains no vertex of the volume at rest: move or enlarge the box");
+  } else {
+    const Points& rest = present_.simulator->topology().rest_vertices;
+    present_.surface->verticesAtRest("its box", pins.region->box(), rest);  // throws if it holds nothing
   }
   insert(pins.name, {true, plan_.pins.size(), false});
   plan_.pins.push_back(std::move(pins));

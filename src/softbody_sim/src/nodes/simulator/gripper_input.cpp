@@ -43,7 +43,8 @@ bool GripperInput::onGrip(std_srvs::SetBool::Request& request, std_srvs::SetBool
 }
 
 std::size_t GripperInput::close() {
-  return surroundings_->grip(gripper_, simulator_->placed() ? simulator_->state().vertices : Points());
+  return surroundings_->grip(gripper_, simulator_->topology(),
+                             simulator_->placed() ? simulator_->state().vertices : Points());
 }
 
 }  // namespace softbody

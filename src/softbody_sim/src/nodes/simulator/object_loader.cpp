@@ -66,7 +66,8 @@ std::uint32_t ObjectLoader::load(const std::string& object) {
     throw std::invalid_argument(fmt::format("object is '{}'; allowed: an absolute path", object));
   ROS_INFO_STREAM("loading " << object << "; the present object goes on");
   SimulatedObject loaded = loadSimulatedObject(object, scope_);
-  for (const PinRegion& pin : loaded.pins) PinnedVertices(pin, loaded.model.volume.rest_vertices);
+  const BodySurface surface = BodySurface(loaded.model.visual, loaded.model.volume).in(loaded.model.volume);
+  for (const PinRegion& pin : loaded.pins) PinnedVertices(pin, surface, loaded.model.volume.rest_vertices);
   askSurface(object);
   const std::uint32_t revision = inNode<std::uint32_t>(owner_.revision) + 1;
   loaded.model.volume.revision = revision;
@@ -85,8 +86,9 @@ void ObjectLoader::askSurface(const std::string& object) {
 }
 
 std::shared_ptr<NextObject> ObjectLoader::make(const SimulatedObject& object) const {
-  auto next = std::make_shared<NextObject>(
-      NextObject{{object.model.volume, object.model.material, config_}, object.pins});
+  auto next = std::make_shared<NextObject>(NextObject{{object.model.volume, object.model.material, config_},
+                                                      object.pins,
+                                                      {object.model.visual, object.model.volume}});
   next->simulator.prepare();
   next->simulator.setBody(ros::WallTime::now().toNSec());
   return next;

@@ -14,6 +14,7 @@
 #include "nodes/own_thread.h"
 #include "nodes/simulator/simulator_options.h"
 #include "softbody_sim/dynamics/simulator.h"
+#include "softbody_sim/surroundings/body_surface.h"
 
 namespace softbody {
 
@@ -21,6 +22,7 @@ namespace softbody {
 struct NextObject {
   Simulator simulator;
   std::vector<PinRegion> pins;
+  BodySurface surface;  ///< which the pins are meant about
 };
 
 /// The service ~load_object: another object without a restart. Object and simulator are made in a thread of

@@ -37,7 +37,7 @@ SimulatorNode::SimulatorNode(ros::NodeHandle node, const ros::NodeHandle& privat
                              const SimulatorOptions& options, const SimulatedObject& object)
     : stall_timeout_s_(options.stall_timeout_s),
       simulator_(makeSimulator(object.model, options.simulator, &timer_)),
-      surroundings_(node, options.surroundings),
+      surroundings_(node, options.surroundings, {object.model.visual, object.model.volume}),
       stamps_(node.resolveName(topics::kTargets), StampGate::Repeats::kAccepted),
       publisher_(node, options.body_frame),
       forces_(node, options.wrench_frame),
@@ -50,7 +50,7 @@ SimulatorNode::SimulatorNode(ros::NodeHandle node, const ros::NodeHandle& privat
                [this](NextObject* next) { useObject(next); }}) {
   if (options.surroundings.gripper)
     gripper_.emplace(node, private_node, options.surroundings, &simulator_, &surroundings_);
-  for (const PinRegion& pin : object.pins) surroundings_.addPin(pin, object.model.volume.rest_vertices);
+  for (const PinRegion& pin : object.pins) surroundings_.addPin(pin, object.model.volume);
   publisher_.publishEdited(simulator_, {});
   const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
   targets_subscriber_ = node.subscribe<softbody_msgs::Targets>(
@@ -89,11 +89,15 @@ void SimulatorNode::onTargets(const softbody_msgs::TargetsConstPtr& message) {
   diagnostics_.setDropped(targets_.dropped());
 }
 
-Present SimulatorNode::present(const std::set<std::string>& frames) const {
+Present SimulatorNode::present(const std::set<std::string>& frames) {
   if (!simulator_.placed()) throw std::invalid_argument("nothing to predict: the body is not placed yet");
   std_msgs::Header header = last_.header;
   header.stamp = toTime(simulator_.stamp());
-  return {simulator_.copyOfPresent(), surroundings_.lastSurroundings(), surroundings_.pinAccuracy_m(), header,
+  return {simulator_.copyOfPresent(),
+          surroundings_.lastSurroundings(),
+          surroundings_.pinAccuracy_m(),
+          surroundings_.surfaceIn(simulator_.topology()),
+          header,
           surroundings_.posesOf(frames)};
 }
 
@@ -140,7 +144,7 @@ void SimulatorNode::restart() {
   if (simulator_.topology().revision > 0)
     ROS_INFO("time jumped back: the simulation starts again with the uncut body");
   simulator_.reset();
-  surroundings_.updatePins(simulator_.topology().rest_vertices, {});
+  surroundings_.updatePins(simulator_.topology(), {});
   last_ = {};
   keepOwnBody();
 }
@@ -234,7 +238,7 @@ void SimulatorNode::publishOwnEdits() {
 }
 
 void SimulatorNode::publishEdited(const ros::Time& stamp) {
-  surroundings_.updatePins(simulator_.topology().rest_vertices, simulator_.state().vertices);
+  surroundings_.updatePins(simulator_.topology(), simulator_.state().vertices);
   // Only before the body is placed the stamp is 0: then the topology gets the stamp of the first frame.
   const ros::Time& of_frame = stamp.isZero() ? last_.header.stamp : stamp;
   publisher_.publishEdited(simulator_, simulator_.placed() ? of_frame : ros::Time());
@@ -266,7 +270,7 @@ void SimulatorNode::useObject(NextObject* next) {
   const TetTopology& topology = next->simulator.topology();
   if (topology.revision != simulator_.topology().revision + 1)
     throw std::runtime_error("the body was cut while the object was loaded; load the object again");
-  surroundings_.replacePins(next->pins, topology.rest_vertices);
+  surroundings_.replacePins(next->surface, next->pins, topology);
   simulator_ = std::move(next->simulator);
   last_ = {};
   publishOwnEdits();

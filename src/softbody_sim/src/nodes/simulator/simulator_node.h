@@ -49,7 +49,7 @@ class SimulatorNode {
                      softbody_msgs::SetMaterial::Response& response);
   void useObject(NextObject* next);
 
-  Present present(const std::set<std::string>& frames) const;
+  Present present(const std::set<std::string>& frames);
   bool step(const softbody_msgs::Targets& message, const std_msgs::Header& header);
   void requireBodyFrame(const TargetSet& targets, const std::string& frame_id) const;
   bool admits(const ros::Time& stamp);

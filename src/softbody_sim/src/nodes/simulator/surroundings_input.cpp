@@ -42,7 +42,7 @@ void SurroundingsInput::onPinMessage(const softbody_msgs::PinRegionConstPtr& mes
     return;
   }
   try {
-    surroundings_->addPin(fromMessage(*message), simulator_->topology().rest_vertices);
+    surroundings_->addPin(fromMessage(*message), simulator_->topology());
     surroundings_->waitingForFrame(message->name);
   } catch (const std::exception& error) {
     ROS_WARN_STREAM("pin '" << message->name << "' is not added: " << error.what());
@@ -51,7 +51,7 @@ void SurroundingsInput::onPinMessage(const softbody_msgs::PinRegionConstPtr& mes
 
 bool SurroundingsInput::onPin(softbody_msgs::Pin::Request& request,
                               softbody_msgs::Pin::Response& response) try {
-  const std::size_t count = surroundings_->addPin(fromMessage(request), simulator_->topology().rest_vertices);
+  const std::size_t count = surroundings_->addPin(fromMessage(request), simulator_->topology());
   response.vertices = static_cast<std::uint32_t>(count);
   response.message = surroundings_->waitingForFrame(request.name);
   response.success = 1;

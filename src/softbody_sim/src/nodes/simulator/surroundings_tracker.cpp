@@ -21,8 +21,9 @@ std::string obstacleFrame(const std::string& frame, const std::string& name) {
 
 }  // namespace
 
-SurroundingsTracker::SurroundingsTracker(const ros::NodeHandle& node, const SurroundingsConfig& config)
-    : node_(node), follower_(config.pins) {
+SurroundingsTracker::SurroundingsTracker(const ros::NodeHandle& node, const SurroundingsConfig& config,
+                                         BodySurface surface)
+    : node_(node), follower_(config.pins, std::move(surface)) {
   for (const ObstacleDescription& obstacle : config.obstacles) setObstacle(obstacle);
 }
 
@@ -41,18 +42,19 @@ void SurroundingsTracker::writeLog() {
   }
 }
 
-std::size_t SurroundingsTracker::addPin(PinRegion region, const Points& rest_vertices) {
+std::size_t SurroundingsTracker::addPin(PinRegion region, const TetTopology& volume) {
   const std::string name = region.name;
   region.frame = pinFrame(region);
-  const std::size_t count = follower_.addPin(std::move(region), rest_vertices);
+  const std::size_t count = follower_.addPin(std::move(region), volume);
   publishers_.try_emplace(name, node_, name);
   return count;
 }
 
-std::size_t SurroundingsTracker::grip(PinRegion region, const Points& vertices) {
+std::size_t SurroundingsTracker::grip(PinRegion region, const TetTopology& volume, const Points& vertices) {
   const std::string name = region.name;
   region.frame = pinFrame(region);
-  const std::size_t count = follower_.grip(std::move(region), lookup(), vertices, toNanoseconds(step_stamp_));
+  const std::size_t count =
+      follower_.grip(std::move(region), lookup(), volume, vertices, toNanoseconds(step_stamp_));
   publishers_.try_emplace(name, node_, name);
   return count;
 }
@@ -61,10 +63,11 @@ bool SurroundingsTracker::removePin(const std::string& name) {
   return follower_.removePin(name) && publishers_.erase(name) > 0;
 }
 
-void SurroundingsTracker::replacePins(std::vector<PinRegion> regions, const Points& rest_vertices) {
+void SurroundingsTracker::replacePins(BodySurface surface, std::vector<PinRegion> regions,
+                                      const TetTopology& volume) {
   for (PinRegion& region : regions) region.frame = pinFrame(region);
   const std::vector<std::string> before = follower_.pinNames();
-  follower_.replacePins(regions, rest_vertices);
+  follower_.replacePins(std::move(surface), regions, volume);
   for (const std::string& name : before) publishers_.erase(name);
   for (const std::string& name : follower_.pinNames()) publishers_.try_emplace(name, node_, name);
 }

@@ -3,6 +3,7 @@
 #include <ros/ros.h>
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -18,14 +19,15 @@ namespace softbody {
 /// have a leading slash.
 class SurroundingsTracker {
  public:
-  SurroundingsTracker(const ros::NodeHandle& node, const SurroundingsConfig& config);
+  /// @param surface of the body, which pins are meant about.
+  SurroundingsTracker(const ros::NodeHandle& node, const SurroundingsConfig& config, BodySurface surface);
 
-  std::size_t addPin(PinRegion region, const Points& rest_vertices);
-  std::size_t grip(PinRegion region, const Points& vertices);
+  std::size_t addPin(PinRegion region, const TetTopology& volume);
+  std::size_t grip(PinRegion region, const TetTopology& volume, const Points& vertices);
   bool removePin(const std::string& name);
   /// Lets all pins go and holds other regions, of another body. @throw std::invalid_argument as
   /// SurroundingsFollower; nothing has changed.
-  void replacePins(std::vector<PinRegion> regions, const Points& rest_vertices);
+  void replacePins(BodySurface surface, std::vector<PinRegion> regions, const TetTopology& volume);
 
   void setObstacle(ObstacleDescription description);
   bool moveObstacle(const std::string& name, const std::string& frame, const Eigen::Isometry3d& pose);
@@ -36,8 +38,8 @@ class SurroundingsTracker {
 
   /// Names of all pins and obstacles.
   std::vector<std::string> names() const;
-  void updatePins(const Points& rest_vertices, const Points& vertices) {
-    follower_.updatePins(rest_vertices, vertices);
+  void updatePins(const TetTopology& volume, const Points& vertices) {
+    follower_.updatePins(volume, vertices);
   }
   void forgetPinPositions() { follower_.forgetPinPositions(); }
 
@@ -53,6 +55,9 @@ class SurroundingsTracker {
                                      const ros::Time& vertices_stamp);
   const NamedSurroundings& lastSurroundings() const { return follower_.lastSurroundings(); }
 
+  std::shared_ptr<const BodySurface> surfaceIn(const TetTopology& volume) {
+    return follower_.surfaceIn(volume);
+  }
   double pinAccuracy_m() const { return follower_.pinAccuracy_m(); }
   /// Poses of the frames that tf knows, at the last step.
   std::map<std::string, Eigen::Isometry3d> posesOf(const std::set<std::string>& frames) const;
