@@ -29,11 +29,15 @@ std::string frameName(const std::string& frame, const std::string& owner) {
   return name;
 }
 
-std::string ownFrame(Parameters& parameters, const char* key, const ros::NodeHandle& private_handle,
+std::string ownFrame(const std::string& frame, const char* key, const ros::NodeHandle& private_handle,
                      const std::string& name) {
   const std::string name_space = ros::names::parentNamespace(private_handle.getNamespace());
-  return frameName(parameters.text(key, frameInNamespace(name_space, name)),
+  return frameName(frame.empty() ? frameInNamespace(name_space, name) : frame,
                    fmt::format("parameter {}", key));
+}
+
+std::string ownFrameText(const std::string& name) {
+  return fmt::format("{0} ([in other namespaces](../reference.md#frames): NAMESPACE/{0})", name);
 }
 
 }  // namespace softbody

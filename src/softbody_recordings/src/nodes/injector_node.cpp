@@ -10,7 +10,7 @@
 #include "nodes/live_stream.h"
 #include "softbody_common/ros/ros_parameters.h"
 #include "softbody_common/topics.h"
-#include "softbody_recordings/injection/fault_options.h"
+#include "softbody_recordings/injection/injector_options.h"
 
 namespace softbody::injection {
 namespace {
@@ -33,13 +33,12 @@ ros::Subscriber relay(ros::NodeHandle* handle, const std::string& topic, ros::Pu
 }  // namespace
 
 InjectorNode::InjectorNode(ros::NodeHandle handle, const ros::NodeHandle& private_handle) {
-  Parameters parameters = readParameters(private_handle);
-  readFaults(&parameters);
-  warnUnknown(parameters);
+  InjectorOptions options = readOptions(private_handle, injectorParameters());
+  options.deliveries.seed = options.images.seed = options.seed;
   const auto stream = [&](const char* topic, bool is_depth) {
-    const bool wanted = is_depth ? in_depth_ : in_color_;
+    const bool wanted = options.stream != (is_depth ? "color" : "depth");
     return std::make_unique<LiveStream>(&handle, topic, faulty(topic), is_depth,
-                                        wanted ? deliveries_ : DeliveryFaults(), images_);
+                                        wanted ? options.deliveries : DeliveryFaults(), options.images);
   };
   relayInfos(&handle);
   color_ = stream(topics::kCameraColor, false);
@@ -48,17 +47,6 @@ InjectorNode::InjectorNode(ros::NodeHandle handle, const ros::NodeHandle& privat
 }
 
 InjectorNode::~InjectorNode() = default;
-
-void InjectorNode::readFaults(Parameters* parameters) {
-  deliveries_.seed = images_.seed = static_cast<std::uint64_t>(parameters->integer("seed", 1, 0, 1 << 30));
-  const std::string stream = parameters->choice("stream", "both", {"color", "depth", "both"});
-  in_color_ = stream != "depth";
-  in_depth_ = stream != "color";
-  for (const FaultOption& option : faultOptions(&deliveries_, &images_)) {
-    const std::string key = option.unit.empty() ? option.name : option.name + "_" + option.unit;
-    *option.value = parameters->number(key, *option.value, option.least, option.most);
-  }
-}
 
 void InjectorNode::diagnose(NodeDiagnostics::Status& status) {
   using diagnostic_msgs::DiagnosticStatus;

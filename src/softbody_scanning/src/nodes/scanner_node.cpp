@@ -20,10 +20,8 @@ namespace {
 constexpr double kPreviewPeriod_s = 2.0;
 constexpr std::size_t kFewestFrames = 6;  // for a preview
 
-ToolDescription loadSheet(Parameters& parameters) {
-  const FileScope scope =
-      parameters.flag("allow_outside", false) ? FileScope::kAnywhere : FileScope::kOwnFolder;
-  return loadToolWithMarkers(parameters.requiredText("sheet"), scope);
+ToolDescription loadSheet(const ScannerOptions& options) {
+  return loadToolWithMarkers(options.sheet, fileScope(options.allow_outside));
 }
 
 Preview tryPreview(const PosedRecording& recording) {
@@ -37,12 +35,13 @@ Preview tryPreview(const PosedRecording& recording) {
 }  // namespace
 
 ScannerNode::ScannerNode(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle)
-    : ScannerNode(handle, private_handle, readParameters(private_handle)) {}
+    : ScannerNode(handle, private_handle, readOptions(private_handle, scannerParameters())) {}
 
-ScannerNode::ScannerNode(ros::NodeHandle handle, ros::NodeHandle private_handle, Parameters parameters)
-    : sheet_(loadSheet(parameters)),
-      output_(parameters.requiredText("output")),
-      frame_id_(parameters.text("scan_frame", "scan")),
+ScannerNode::ScannerNode(ros::NodeHandle handle, ros::NodeHandle private_handle,
+                         const ScannerOptions& options)
+    : sheet_(loadSheet(options)),
+      output_(options.output),
+      frame_id_(options.scan_frame),
       motion_(sheet_),
       clicked_(handle, frame_id_),
       color_(handle, topics::kRgbRect, 3),
@@ -58,7 +57,6 @@ ScannerNode::ScannerNode(ros::NodeHandle handle, ros::NodeHandle private_handle,
   images_.registerCallback(&ScannerNode::onFrame, this);
   timer_ =
       handle.createWallTimer(ros::WallDuration(kPreviewPeriod_s), [this](const auto&) { showProgress(); });
-  warnUnknown(parameters);
 }
 
 void ScannerNode::onFrame(const sensor_msgs::ImageConstPtr& color, const sensor_msgs::ImageConstPtr& depth,

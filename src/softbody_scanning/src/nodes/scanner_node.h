@@ -13,9 +13,9 @@
 #include <string>
 
 #include "nodes/clicked_object.h"
-#include "softbody_common/parameters.h"
 #include "softbody_scanning/key_frames/key_frame_choice.h"
 #include "softbody_scanning/motion/sheet_motion.h"
+#include "softbody_scanning/ros/scanner_options.h"
 #include "softbody_scanning/scan/scanned_body.h"
 
 namespace softbody::scanning {
@@ -34,7 +34,7 @@ class ScannerNode {
   ScannerNode(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle);
 
  private:
-  ScannerNode(ros::NodeHandle handle, ros::NodeHandle private_handle, Parameters parameters);
+  ScannerNode(ros::NodeHandle handle, ros::NodeHandle private_handle, const ScannerOptions& options);
 
   void onFrame(const sensor_msgs::ImageConstPtr& color, const sensor_msgs::ImageConstPtr& depth,
                const sensor_msgs::CameraInfoConstPtr& info);

@@ -10,6 +10,12 @@
 namespace softbody {
 namespace {
 
+std::optional<GripperDescription> readGripper(Parameters& given, std::vector<std::string>* unknown) {
+  const GripperWords words = gripperParameters().read(given);
+  *unknown = words.unknown;
+  return gripperOf(words);
+}
+
 class GripperDescriptionTest : public ::testing::Test {
  protected:
   void TearDown() override { std::filesystem::remove(path_); }

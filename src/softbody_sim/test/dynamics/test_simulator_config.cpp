@@ -1,22 +1,23 @@
 #include <gtest/gtest.h>
 #include <yaml-cpp/yaml.h>
 
+#include "fixtures/test_meshes.h"
 #include "softbody_common/target_limits.h"
-#include "softbody_sim/dynamics/simulator_config.h"
+#include "softbody_sim/dynamics/simulator.h"
 
 namespace softbody {
 namespace {
 
 TEST(SimulatorConfig, ReadsItsParametersAndNamesWhatIsOutOfRange) {
   Parameters good(YAML::Load("{simulate: false, iterations: 7, gravity_m_s2: [0, 9.81, 0]}"), "/simulator/");
-  const SimulatorConfig config = readSimulatorConfig(good);
+  const SimulatorConfig config = simulatorParameters().read(good);
   EXPECT_FALSE(config.simulate);
   EXPECT_EQ(config.iterations, 7);
   EXPECT_EQ(config.gravity.y(), 9.81);
   EXPECT_TRUE(good.unknown().empty());
   Parameters bad(YAML::Load("{iterations: 0}"), "/simulator/");
   try {
-    readSimulatorConfig(bad);
+    simulatorParameters().read(bad);
     FAIL();
   } catch (const std::invalid_argument& error) {
     EXPECT_NE(std::string(error.what()).find("/simulator/iterations is 0"), std::string::npos)
@@ -33,6 +34,54 @@ TEST(SimulatorConfig, LeavesRoomForTheTrackersHeaviestTargets) {
     config.target_stiffness *= 1.01;
     EXPECT_THROW(requireConsistent(config), std::invalid_argument);
   }
+}
+
+Simulator placedSponge(const SimulatorConfig& config) {
+  const TetTopology topology = testing::sponge();
+  Simulator simulator(topology, Material(), config);
+  simulator.step(testing::placing(Eigen::Isometry3d::Identity()), 0);
+  return simulator;
+}
+
+Points afterPulling(Simulator* simulator) {
+  TargetSet targets;
+  const Points goal = transformed(simulator->topology().rest_vertices, testing::somePose());
+  targets.targets = testing::vertexTargets(simulator->topology(), goal);
+  for (int frame = 1; frame <= 3; ++frame) simulator->step(targets, frame * testing::kFrame);
+  return simulator->state().vertices;
+}
+
+TEST(SimulatorConfig, ChangesBetweenStepsAsIfItHadBeenSoFromTheStart) {
+  SimulatorConfig soft;
+  soft.target_stiffness = 0.01;
+  soft.contact_stiffness = 3.0;
+  soft.memory_s = 0.0;
+  Simulator changed = placedSponge(SimulatorConfig()), from_start = placedSponge(soft),
+            unchanged = placedSponge(SimulatorConfig());
+  changed.setConfig(soft);
+  EXPECT_EQ(changed.state().vertices, from_start.state().vertices);
+  const Points after = afterPulling(&changed);
+  EXPECT_EQ(after, afterPulling(&from_start));
+  EXPECT_GT(testing::largestDistance(after, afterPulling(&unchanged)), 1e-4);
+}
+
+TEST(SimulatorConfig, StaysIfAnotherOneIsRefused) {
+  Simulator simulator = placedSponge(SimulatorConfig()), same = placedSponge(SimulatorConfig());
+  SimulatorConfig wrong;
+  wrong.elasticity = Elasticity::kNeoHookean;
+  EXPECT_THROW(simulator.setConfig(wrong), std::invalid_argument);
+  EXPECT_EQ(simulator.config().elasticity, Elasticity::kCorotated);
+  EXPECT_EQ(afterPulling(&simulator), afterPulling(&same));
+}
+
+TEST(SimulatorConfig, WithoutLoadsThereAreNoStandardDeviations) {
+  Simulator simulator = placedSponge(SimulatorConfig());
+  afterPulling(&simulator);
+  ASSERT_FALSE(simulator.state().standard_deviation.empty());
+  SimulatorConfig config;
+  config.load_fade_s = 0.0;
+  simulator.setConfig(config);
+  EXPECT_TRUE(simulator.state().standard_deviation.empty());
 }
 
 }  // namespace

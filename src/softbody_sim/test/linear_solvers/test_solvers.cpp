@@ -139,19 +139,19 @@ TEST(SolverChoice, SpringsNeedFemWithoutSmoothing) {
   for (const char* refused : {"{elasticity: springs}", "{solver: fem, elasticity: springs}",
                               "{solver: fem, elasticity: springs, strain_smoothing: 0.0}"}) {
     Parameters parameters(YAML::Load(refused), "/simulator/");
-    EXPECT_THROW(readSimulatorConfig(parameters), std::invalid_argument) << refused;
+    EXPECT_THROW(simulatorParameters().read(parameters), std::invalid_argument) << refused;
   }
   Parameters good(
       YAML::Load("{solver: fem, elasticity: springs, strain_smoothing: 0.0, volume_smoothing: 0.0}"),
       "/simulator/");
-  EXPECT_EQ(readSimulatorConfig(good).elasticity, Elasticity::kSprings);
+  EXPECT_EQ(simulatorParameters().read(good).elasticity, Elasticity::kSprings);
 }
 
 TEST(SolverChoice, NeoHookeanNeedsFem) {
   Parameters parameters(YAML::Load("{elasticity: neo_hookean}"), "/simulator/");
-  EXPECT_THROW(readSimulatorConfig(parameters), std::invalid_argument);
+  EXPECT_THROW(simulatorParameters().read(parameters), std::invalid_argument);
   Parameters good(YAML::Load("{solver: fem, elasticity: neo_hookean}"), "/simulator/");
-  EXPECT_EQ(readSimulatorConfig(good).elasticity, Elasticity::kNeoHookean);
+  EXPECT_EQ(simulatorParameters().read(good).elasticity, Elasticity::kNeoHookean);
 }
 
 }  // namespace

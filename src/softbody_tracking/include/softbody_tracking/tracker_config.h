@@ -1,6 +1,6 @@
 #pragma once
 
-#include "softbody_common/parameters.h"
+#include "softbody_common/parameters/parameter_table.h"
 
 namespace softbody {
 
@@ -61,7 +61,6 @@ struct TrackerConfig {
   StatusConfig status;
 };
 
-/// Reads and checks all tracker parameters. @throw std::invalid_argument like Parameters.
-TrackerConfig readTrackerConfig(Parameters& parameters);
+const ParameterTable<TrackerConfig>& trackerParameters();
 
 }  // namespace softbody

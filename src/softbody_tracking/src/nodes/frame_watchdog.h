@@ -6,15 +6,9 @@
 #include <optional>
 #include <string>
 
-#include "softbody_common/parameters.h"
 #include "softbody_common/ros/time.h"
 
 namespace softbody {
-
-/// Time without a frame [s] after which a node says so. @throw std::invalid_argument as Parameters does.
-inline double readSilenceTimeout(Parameters& parameters) {
-  return parameters.number("silence_timeout_s", 2.0, 0.1, 3600.0);
-}
 
 /// Notices that camera_ingest sends no frames. It uses the arrival times in ROS time, not the stamps: a
 /// paused bag is not a fault, and the camera's clock may differ from ours. Only while /clock is silent, it

@@ -15,9 +15,8 @@ constexpr double kPoll_s = 0.002;  // [s] between two looks at the tf buffer; sh
 
 }  // namespace
 
-OutputFrame::OutputFrame(Parameters& parameters)
-    : name_(frameName(parameters.text("output_frame", ""), "parameter output_frame")),
-      timeout_s_(parameters.number("tf_timeout_s", 0.05, 0.0, 5.0)) {}
+OutputFrame::OutputFrame(const OutputFrameOptions& options)
+    : name_(frameName(options.name, "parameter output_frame")), timeout_s_(options.timeout_s) {}
 
 std_msgs::Header OutputFrame::fixedHeader(const std_msgs::Header& camera_header) const {
   std_msgs::Header header = camera_header;

@@ -6,8 +6,8 @@
 #include <Eigen/Geometry>
 #include <string>
 
-#include "softbody_common/parameters.h"
 #include "softbody_common/ros/transform_input.h"
+#include "softbody_tracking/ros/node_options.h"
 
 namespace softbody {
 
@@ -15,8 +15,7 @@ namespace softbody {
 /// empty.
 class OutputFrame {
  public:
-  /// Reads `output_frame` and `tf_timeout_s`. @throw std::invalid_argument as Parameters does.
-  explicit OutputFrame(Parameters& parameters);
+  explicit OutputFrame(const OutputFrameOptions& options);
 
   /// The parameter; empty: the camera's own frame.
   const std::string& name() const { return name_; }

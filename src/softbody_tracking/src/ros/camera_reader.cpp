@@ -22,7 +22,6 @@ namespace {
 constexpr double kSameFocalLength = 0.01, kSameCentre_px = 2.0;
 // Two cameras nearer than this are one: far below a pixel at any distance.
 constexpr double kSamePlace_m = 1e-4, kSameTurn_rad = 1e-4;
-constexpr double kLongestUnit_m = 1.0;  // no camera measures in larger ones
 
 /// A camera as its CameraInfo describes it, for images of one size.
 struct Lens {
@@ -151,10 +150,6 @@ void CameraReader::tellAbout(const CameraMessages& messages, const CameraImages&
 
 void CameraReader::tell(const std::string& sentence) {
   if (told_.insert(sentence).second) note_(sentence);
-}
-
-double readDepthScale(Parameters& parameters) {
-  return parameters.number("depth_scale", 0.0, 0.0, kLongestUnit_m);
 }
 
 }  // namespace softbody

@@ -12,8 +12,4 @@ RobotDescription readRobot(const std::string& urdf, const std::string& folder) {
       urdf, [&](const std::string& name) { return readRobotMesh(robotFilePath(name, packages, folder)); });
 }
 
-double readRobotDeviation(Parameters& parameters) {
-  return parameters.number("robot_deviation_m", 0.003, 0.0, 0.1);
-}
-
 }  // namespace softbody

@@ -196,7 +196,7 @@ TEST(CameraIngest, SaysWhatDoesNotFit) {
 TEST(CameraIngest, ParametersHaveLimits) {
   const auto refused = [](const char* yaml) {
     Parameters parameters(YAML::Load(yaml));
-    EXPECT_THROW(readCameraIngestConfig(parameters), std::invalid_argument) << yaml;
+    EXPECT_THROW(cameraIngestParameters().read(parameters), std::invalid_argument) << yaml;
   };
   refused("edge_jump_ratio: 0");
   refused("min_depth_m: -1");

@@ -238,7 +238,7 @@ TEST(FramePairer, ExactPairingTakesEqualStampsOnly) {
 TEST(FramePairer, ParametersOutOfRangeAreRefused) {
   for (const char* text : {"{sync: near}", "{sync_tolerance_s: 0}", "{queue_size: 0}"}) {
     Parameters parameters(YAML::Load(text), "camera_ingest/");
-    EXPECT_THROW(readPairingConfig(parameters), std::invalid_argument) << text;
+    EXPECT_THROW(pairingParameters().read(parameters), std::invalid_argument) << text;
   }
 }
 

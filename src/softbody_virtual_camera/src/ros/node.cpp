@@ -13,56 +13,31 @@
 #include "softbody_common/ros/ros_parameters.h"
 #include "softbody_common/ros/run_node.h"
 #include "softbody_common/topics.h"
-#include "softbody_sim/object/material.h"
-#include "softbody_virtual_camera/camera/camera_motion.h"
-#include "softbody_virtual_camera/catalog/make_scene.h"
 #include "softbody_virtual_camera/ros/messages.h"
-#include "softbody_virtual_camera/textures/body_paint.h"
 
 namespace softbody::virtual_camera {
 namespace {
 
 constexpr int kQueue = 2;
 
-CameraSetup readSetup(const CameraSetup& defaults, Parameters* parameters) {
-  CameraSetup setup = defaults;
-  const auto optional = [&](const char* key, const MaterialRange& range) {
-    return parameters->optionalNumber(key, range.min, range.max);
-  };
-  setup.scene = parameters->choice("scene", setup.scene, sceneNames());
-  setup.camera_motion = parameters->choice("camera_motion", setup.camera_motion, cameraMotionNames());
-  setup.texture = parameters->choice("texture", setup.texture, textureNames());
-  setup.body = parameters->text("body", setup.body);
-  setup.tool = parameters->text("tool", setup.tool);
-  setup.sheet = parameters->text("sheet", setup.sheet);
-  setup.jerks = parameters->flag("jerks", setup.jerks);
-  setup.camera_tf = parameters->flag("camera_tf", setup.camera_tf);
-  setup.unit = parameters->choice("unit", setup.unit, {"m", "cm", "mm", "inch"});
-  setup.seed =
-      static_cast<std::uint64_t>(parameters->integer("seed", static_cast<int>(setup.seed), 0, 1 << 30));
-  setup.width = parameters->integer("width", setup.width, 16, 4096);
-  setup.height = parameters->integer("height", setup.height, 16, 4096);
-  setup.rate_hz = parameters->number("rate", setup.rate_hz, 0.1, 1000.0);
-  setup.youngs_modulus_pa = optional("youngs_modulus", kYoungsModulusRange);
-  setup.poisson_ratio = optional("poisson_ratio", kPoissonRatioRange);
-  setup.density_kg_m3 = optional("density", kDensityRange);
-  setup.damping = optional("damping", {kDampingRange.min, 0.99});
-  if (!parameters->flag("noise", true)) setup.noise = noNoise();
-  return setup;
+/// @param setup has the defaults.
+NodeOptions readNodeOptions(const ros::NodeHandle& private_node, const CameraSetup& setup) {
+  Parameters given = readParameters(private_node);
+  NodeOptions initial;
+  initial.setup = setup;
+  NodeOptions options = nodeParameters().read(given, initial);
+  if (!options.noise) options.setup.noise = noNoise();
+  warnUnknown(given);
+  return options;
 }
 
 }  // namespace
 
 VirtualCameraNode::VirtualCameraNode(ros::NodeHandle node, const ros::NodeHandle& private_node,
-                                     const CameraSetup& setup) {
-  Parameters parameters = readParameters(private_node);
-  setup_ = readSetup(setup, &parameters);
-  loop_ = parameters.flag("loop", true);
-  publish_camera_tf_ = parameters.flag("publish_camera_tf", true);
-  hold_s_ = parameters.number("hold", hold_s_, 0.0, 3600.0);
-  warnUnknown(parameters);
+                                     const CameraSetup& setup)
+    : options_(readNodeOptions(private_node, setup)) {
   std::vector<std::string> warnings;
-  camera_.emplace(makeCamera(setup_, &warnings));
+  camera_.emplace(makeCamera(options_.setup, &warnings));
   for (const std::string& warning : warnings) ROS_WARN("%s", warning.c_str());
 
   // In a manager with a namespace, roscpp does not resolve names of the root namespace.
@@ -70,7 +45,7 @@ VirtualCameraNode::VirtualCameraNode(ros::NodeHandle node, const ros::NodeHandle
   publishLatched(0, ros::Time::now());
   ahead_.emplace([this](int frame) { return render(frame); });
   ahead_->start(frame_, ros::Time::now());
-  timer_ = node.createTimer(ros::Duration(1.0 / setup_.rate_hz), &VirtualCameraNode::onTimer, this);
+  timer_ = node.createTimer(ros::Duration(1.0 / options_.setup.rate_hz), &VirtualCameraNode::onTimer, this);
   diagnostics_.emplace(node, private_node, "frames", [this](auto& status) { diagnose(status); });
 }
 
@@ -104,11 +79,11 @@ void VirtualCameraNode::advertise(ros::NodeHandle node, const std::string& name_
         node.advertise<geometry_msgs::WrenchStamped>(name(kTruthWrenchTopic) + wrench.name, kQueue);
   }
   tf_ = node.advertise<tf2_msgs::TFMessage>("/tf", kQueue);
-  if (publish_camera_tf_) tf_static_ = node.advertise<tf2_msgs::TFMessage>("/tf_static", 1, true);
+  if (options_.publish_camera_tf) tf_static_ = node.advertise<tf2_msgs::TFMessage>("/tf_static", 1, true);
 }
 
 void VirtualCameraNode::publishLatched(std::uint32_t revision, const ros::Time& stamp) {
-  if (publish_camera_tf_) tf_static_.publish(staticTransforms(camera_->scene(), stamp));
+  if (options_.publish_camera_tf) tf_static_.publish(staticTransforms(camera_->scene(), stamp));
   if (const auto& material = camera_->scene().material) truth_material_.publish(materialMessage(*material));
   truth_topology_.publish(topologyMessage(camera_->topology(revision), stamp));
   if (const auto second = camera_->secondTopology())
@@ -122,7 +97,7 @@ bool VirtualCameraNode::hasSubscribers() const {
 }
 
 double VirtualCameraNode::sceneTime(int frame) const {
-  return std::max(0.0, frame / setup_.rate_hz - hold_s_);
+  return std::max(0.0, frame / options_.setup.rate_hz - options_.hold_s);
 }
 
 CaptureMessages VirtualCameraNode::render(int frame) {
@@ -132,15 +107,15 @@ CaptureMessages VirtualCameraNode::render(int frame) {
 
 void VirtualCameraNode::onTimer(const ros::TimerEvent& event) {
   if (!hasSubscribers()) return;
-  if (!loop_ && sceneTime(frame_) >= camera_->scene().duration_s) {
-    ROS_INFO("scene %s is over", setup_.scene.c_str());
+  if (!options_.loop && sceneTime(frame_) >= camera_->scene().duration_s) {
+    ROS_INFO("scene %s is over", options_.setup.scene.c_str());
     timer_.stop();
     over_ = true;
     return;
   }
   const CaptureMessages messages = ahead_->take();
   publish(messages, messages.color->header.stamp);
-  const ros::Duration period(1.0 / setup_.rate_hz);
+  const ros::Duration period(1.0 / options_.setup.rate_hz);
   ++published_;
   late_ += ros::Time::now() - event.current_expected > period ? 1 : 0;
   ahead_->start(++frame_, event.current_expected + period);
@@ -159,10 +134,10 @@ void VirtualCameraNode::diagnose(NodeDiagnostics::Status& status) {
         DiagnosticStatus::WARN,
         fmt::format("{} of {} frames came late: this machine is too slow for {:g} frames a second of "
                     "{}x{}; set a lower rate, width or height",
-                    late_, published_, setup_.rate_hz, setup_.width, setup_.height));
+                    late_, published_, options_.setup.rate_hz, options_.setup.width, options_.setup.height));
   else
     status.summary(DiagnosticStatus::OK, fmt::format("{:.1f} frames a second", rate_hz));
-  status.add("scene", setup_.scene);
+  status.add("scene", options_.setup.scene);
   status.add("frames per second", fmt::format("{:.1f}", rate_hz));
   status.add("frames late", late_);
   published_ = late_ = 0;
@@ -174,7 +149,7 @@ void VirtualCameraNode::publish(const CaptureMessages& messages, const ros::Time
   for (; revision_ < messages.truth->revision; ++revision_) {
     truth_cut_.publish(cutMessage(camera_->scene().edits.at(revision_), stamp));
   }
-  if (edited || frame_ % std::max(1, static_cast<int>(std::lround(setup_.rate_hz))) == 0) {
+  if (edited || frame_ % std::max(1, static_cast<int>(std::lround(options_.setup.rate_hz))) == 0) {
     publishLatched(revision_, stamp);
   }
   tf_.publish(messages.transforms);

@@ -25,6 +25,11 @@ std::string_view withoutComment(std::string_view line);
 /// Whether a path that stands in a file of a user may lead out of this file's folder.
 enum class FileScope { kOwnFolder, kAnywhere };
 
+/// @param allow_outside the value of the parameter or option of this name.
+constexpr FileScope fileScope(bool allow_outside) {
+  return allow_outside ? FileScope::kAnywhere : FileScope::kOwnFolder;
+}
+
 /// True if a file is in the folder or below it, after symbolic links and ".." are resolved. An empty path is
 /// the current folder.
 bool isInside(const std::filesystem::path& file, const std::filesystem::path& folder);

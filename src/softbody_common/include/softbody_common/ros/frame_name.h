@@ -4,8 +4,6 @@
 
 #include <string>
 
-#include "softbody_common/parameters.h"
-
 namespace softbody {
 
 /// The name as tf2 has it: without the leading slash of ROS before 2012.
@@ -25,9 +23,13 @@ inline std::string frameInNamespace(const std::string& name_space, const std::st
 /// @param owner where the name comes from, for the warning, e.g. "parameter output_frame".
 std::string frameName(const std::string& frame, const std::string& owner);
 
-/// The frame of this graph's body or tool: the parameter, or by default the name in the node's namespace. So
-/// two graphs have two frames. @throw std::invalid_argument as Parameters does.
-std::string ownFrame(Parameters& parameters, const char* key, const ros::NodeHandle& private_handle,
+/// The frame of this graph's body or tool: that of the parameter, or if it is empty the name in the node's
+/// namespace. So two graphs have two frames.
+/// @param key the parameter's, for the warning.
+std::string ownFrame(const std::string& frame, const char* key, const ros::NodeHandle& private_handle,
                      const std::string& name);
+
+/// The default of such a parameter for the documentation.
+std::string ownFrameText(const std::string& name);
 
 }  // namespace softbody

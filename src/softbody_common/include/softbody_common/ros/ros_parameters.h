@@ -2,7 +2,7 @@
 
 #include <ros/node_handle.h>
 
-#include "softbody_common/parameters.h"
+#include "softbody_common/parameters/parameter_table.h"
 
 namespace softbody {
 
@@ -11,5 +11,15 @@ Parameters readParameters(const ros::NodeHandle& private_handle);
 
 /// Logs a warning for every private parameter that was never read.
 void warnUnknown(const Parameters& parameters);
+
+/// The options that a node's private parameters give. Warns of unknown keys.
+/// @throw std::invalid_argument as Parameters does.
+template <typename Options>
+Options readOptions(const ros::NodeHandle& private_handle, const ParameterTable<Options>& table) {
+  Parameters given = readParameters(private_handle);
+  Options options = table.read(given);
+  warnUnknown(given);
+  return options;
+}
 
 }  // namespace softbody

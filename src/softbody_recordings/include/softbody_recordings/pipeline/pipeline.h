@@ -9,6 +9,7 @@
 #include "softbody_recordings/pipeline/pin_forces.h"
 #include "softbody_sim/cutting/binding/cuttable_surface.h"
 #include "softbody_sim/dynamics/simulator.h"
+#include "softbody_sim/object/material_parameters.h"
 #include "softbody_sim/object/object_model.h"
 #include "softbody_tracking/tool/tool_mask.h"
 #include "softbody_tracking/tool/tool_tracker.h"
@@ -35,6 +36,7 @@ struct FrameOutput {
 struct PipelineConfig {
   TrackerConfig tracker;
   SimulatorConfig simulator;
+  MaterialParameters material = {};  ///< replaces values of the object's material
   CuttingConfig cutting;
   ToolTrackerConfig tool_tracker;
   SurroundingsConfig surroundings;

@@ -9,19 +9,13 @@
 #include <optional>
 
 #include "softbody_common/ros/node_diagnostics.h"
-#include "softbody_recordings/injection/deliveries.h"
-#include "softbody_recordings/injection/image_faults.h"
-
-namespace softbody {
-class Parameters;
-}
 
 namespace softbody::injection {
 
 class LiveStream;
 
 /// Adds faults to a live camera: reads camera/..., publishes camera_faulty/.... The same seed gives the same
-/// faults as in a bag. Parameters: seed, stream, and those of faultOptions with their unit, e.g. delay_by_s.
+/// faults as in a bag. Parameters: injectorParameters().
 class InjectorNode {
  public:
   /// @throw std::invalid_argument for a bad parameter.
@@ -29,13 +23,9 @@ class InjectorNode {
   ~InjectorNode();
 
  private:
-  void readFaults(Parameters* parameters);
   void relayInfos(ros::NodeHandle* handle);
   void diagnose(NodeDiagnostics::Status& status);
 
-  DeliveryFaults deliveries_;
-  ImageFaults images_;
-  bool in_color_ = true, in_depth_ = true;  ///< the streams with delivery faults
   std::unique_ptr<LiveStream> color_, depth_;
   ros::Publisher color_info_, depth_info_;
   ros::Subscriber color_info_subscriber_, depth_info_subscriber_;

@@ -12,9 +12,9 @@ namespace {
 
 constexpr char kSimulationStage[] = "Soft-body Simulation";
 
-Simulator makeSimulator(const ObjectModel& model, const SimulatorConfig& config, StageTimer* timer) {
+Simulator makeSimulator(const ObjectModel& model, const PipelineConfig& config, StageTimer* timer) {
   const auto scope = timer->stage(kSimulationStage, true);
-  Simulator simulator(model.volume, model.material, config);
+  Simulator simulator(model.volume, withParameters(model.material, config.material), config.simulator);
   simulator.prepare();
   return simulator;
 }
@@ -29,7 +29,7 @@ Pipeline::Pipeline(const ObjectModel& model, const PipelineConfig& config,
       forces_(config.forces),
       to_be_placed_(config.placed),
       tracker_(config.tracker, config.picture),
-      simulator_(makeSimulator(model, config.simulator, &timer_)),
+      simulator_(makeSimulator(model, config, &timer_)),
       surface_(makeSurface()),
       surroundings_(config.surroundings, config.pins, {uncut_surface_, uncut_volume_}, uncut_volume_) {
   if (to_be_placed_ && !uncut_volume_.has_initial_pose)

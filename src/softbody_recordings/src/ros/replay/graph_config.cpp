@@ -5,14 +5,14 @@
 
 #include <algorithm>
 #include <array>
-#include <set>
 #include <stdexcept>
 
 #include "softbody_common/files/yaml_map_reader.h"
 #include "softbody_common/parameters.h"
 #include "softbody_common/ros/frame_name.h"
-#include "softbody_tracking/ros/camera_reader.h"
-#include "softbody_tracking/ros/robot_reader.h"
+#include "softbody_sim/ros/simulator_options.h"
+#include "softbody_sim/ros/surface_options.h"
+#include "softbody_tracking/ros/node_options.h"
 
 namespace softbody {
 namespace {
@@ -33,49 +33,41 @@ YAML::Node sectionsOf(const std::string& path) {
   return file;
 }
 
-/// The keys of a node's section that a replay does not read.
-struct LiveOnly {
-  std::set<std::string> unused;
-  std::set<std::string> missed;  ///< keys that change the result of the live graph
+/// Parameters of the live graph, in the section of one node.
+struct Known {
+  std::vector<ParameterDescription> parameters;
+  std::vector<std::string> missed;  ///< keys that change the result of the live graph, but not of a replay
 };
 
-/// Reads one section. Warns about unknown keys, and about keys without effect in a replay.
+/// Reads one section. Warns about unknown keys, and about keys that a replay misses.
 template <typename Reader>
-auto readSection(const YAML::Node& file, const std::string& name, const LiveOnly& live,
+auto readSection(const YAML::Node& file, const std::string& name, const Known& known,
                  std::vector<std::string>* warnings, Reader reader) {
-  const YAML::Node section = file[name];
-  Parameters parameters(section.IsDefined() ? section : YAML::Node(), name + "/");
+  const YAML::Node section = file[name].IsDefined() ? file[name] : YAML::Node();
+  Parameters parameters(section, name + "/");
   auto config = reader(parameters);
-  for (const std::string& full_key : parameters.unknown()) {
-    const std::string key = full_key.substr(name.size() + 1);
-    if (live.unused.count(key) != 0) continue;
-    warnings->push_back(live.missed.count(key) != 0
-                            ? fmt::format("parameter {} has no effect in a replay", full_key)
-                            : fmt::format("unknown parameter {} is ignored", full_key));
+  for (const std::string& key : parameters.unknown()) {
+    const bool is_known = std::any_of(known.parameters.begin(), known.parameters.end(),
+                                      [&](const auto& p) { return key == name + "/" + p.name; });
+    if (!is_known) warnings->push_back(fmt::format("unknown parameter {} is ignored", key));
   }
+  for (const std::string& key : known.missed)
+    if (section.IsMap() && section[key].IsDefined())
+      warnings->push_back(fmt::format("parameter {}/{} has no effect in a replay", name, key));
   return config;
 }
 
 SurroundingsConfig readSurroundings(Parameters& parameters, const SimulatorConfig& simulator,
                                     std::vector<std::string>* warnings) {
-  std::vector<std::string> unknown;
-  SurroundingsConfig config = readSurroundingsConfig(parameters, simulator.target_accuracy_m, &unknown);
-  for (const std::string& key : unknown)
+  const SurroundingsParameters given = surroundingsParameters().read(parameters);
+  for (const std::string& key : unknownKeys(given))
     warnings->push_back(fmt::format("unknown parameter {} is ignored", key));
+  SurroundingsConfig config = surroundingsOf(given, simulator.target_accuracy_m);
   for (ObstacleDescription& obstacle : config.obstacles) obstacle.frame = withoutSlash(obstacle.frame);
   if (!config.gripper) return config;
   config.gripper->frame = withoutSlash(config.gripper->frame);
   config.gripper_closed = "/" + withoutSlash(config.gripper_closed);
   return config;
-}
-
-void readToolTracker(const YAML::Node& file, std::vector<std::string>* warnings, GraphConfig* config) {
-  const LiveOnly live{{"tool", "allow_outside", "tool_frame", "output_frame", "tf_timeout_s"}, {}};
-  config->pipeline.tool_tracker =
-      readSection(file, "tool_tracker", live, warnings, [config](Parameters& parameters) {
-        config->blade_frame = parameters.text("blade_frame", "");
-        return readToolTrackerConfig(parameters);
-      });
 }
 
 }  // namespace
@@ -85,36 +77,36 @@ GraphConfig readGraphConfig(const std::string& path, std::vector<std::string>* w
   YAML::Node file = path.empty() ? YAML::Node(YAML::NodeType::Map) : sectionsOf(path);
   for (const auto& [key, text] : simulator)
     if (!text.empty() && !file["simulator"].IsScalar()) file["simulator"][key] = text;
+  const auto read = [&](const std::string& name, const Known& known, auto reader) {
+    return readSection(file, name, known, warnings, reader);
+  };
   GraphConfig config;
-  config.ingest = readSection(
-      file, "camera_ingest",
-      {{"voxel_size_m", "silence_timeout_s", "image_transport", "color_transport", "depth_transport"}, {}},
-      warnings, [&config](Parameters& parameters) {
-        config.pairing = readPairingConfig(parameters);
-        config.depth_scale = readDepthScale(parameters);
-        return readCameraIngestConfig(parameters);
-      });
-  config.pipeline.tracker =
-      readSection(file, "feature_tracker",
-                  {{"body_frame", "object", "allow_outside", "mask_timeout_s", "tf_timeout_s"},
-                   {"known_surfaces", "robot", "use_mask"}},
-                  warnings, [&config](Parameters& parameters) {
-                    config.output_frame = parameters.text("output_frame", "");
-                    config.robot_deviation_m = readRobotDeviation(parameters);
-                    return readTrackerConfig(parameters);
-                  });
-  readSection(file, "pose_marker", {{"frame"}, {}}, warnings, [](Parameters&) { return 0; });
-  config.pipeline.simulator = readSection(
-      file, "simulator",
-      {{"body_frame", "object", "free_run_rate_hz", "stall_timeout_s", "allow_outside"}, {"wrench_frame"}},
-      warnings, [&](Parameters& parameters) {
-        const SimulatorConfig simulator_config = readSimulatorConfig(parameters);
-        config.pipeline.surroundings = readSurroundings(parameters, simulator_config, warnings);
+  const CameraIngestOptions ingest =
+      read("camera_ingest", {}, [](Parameters& given) { return cameraIngestNodeParameters().read(given); });
+  config.pairing = ingest.pairing;
+  config.ingest = ingest.ingest;
+  config.depth_scale = ingest.depth_scale;
+  const FeatureTrackerOptions tracker =
+      read("feature_tracker", {{}, {"known_surfaces", "robot", "use_mask"}},
+           [](Parameters& given) { return featureTrackerNodeParameters().read(given); });
+  config.pipeline.tracker = tracker.tracker;
+  config.output_frame = tracker.output_frame.name;
+  config.robot_deviation_m = tracker.robot.deviation_m;
+  read("pose_marker", {}, [](Parameters& given) { return poseMarkerNodeParameters().read(given); });
+  config.pipeline.simulator =
+      read("simulator", {simulatorNodeParameters().describe(), {"wrench_frame"}}, [&](Parameters& given) {
+        const SimulatorConfig simulator_config = simulatorParameters().read(given);
+        config.pipeline.material = materialParameters().read(given);
+        config.pipeline.surroundings = readSurroundings(given, simulator_config, warnings);
         return simulator_config;
       });
-  config.pipeline.cutting = readSection(file, "surface", {{"body_frame", "object", "allow_outside"}, {}},
-                                        warnings, readCuttingConfig);
-  readToolTracker(file, warnings, &config);
+  config.pipeline.cutting = read("surface", {surfaceNodeParameters().describe(), {}},
+                                 [](Parameters& given) { return cuttingParameters().read(given); });
+  config.pipeline.tool_tracker =
+      read("tool_tracker", {toolTrackerNodeParameters().describe(), {}}, [&](Parameters& given) {
+        config.blade_frame = given.text("blade_frame", "");
+        return toolTrackerParameters().read(given);
+      });
   return config;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "softbody_common/parameters.h"
+#include "softbody_common/parameters/parameter_table.h"
 
 namespace softbody {
 
@@ -14,7 +14,6 @@ struct CuttingConfig {
   double undo_memory_mb = 60.0;  ///< for undo and redo; strokes beyond are cut again when they are undone
 };
 
-/// @throw std::invalid_argument as Parameters does.
-CuttingConfig readCuttingConfig(Parameters& parameters);
+const ParameterTable<CuttingConfig>& cuttingParameters();
 
 }  // namespace softbody

@@ -100,6 +100,12 @@ class Simulator {
   /// @throw std::invalid_argument if a value is out of its range; nothing has changed.
   void setMaterial(const Material& material);
 
+  const SimulatorConfig& config() const;
+  /// Changes how the next steps are made. Shape, motion, loads and cuts stay, what earlier frames have
+  /// measured is forgotten; undo_memory_mb holds from the next reset() on. The time is as for setMaterial.
+  /// @throw std::invalid_argument as the constructor does; nothing has changed.
+  void setConfig(const SimulatorConfig& config);
+
   /// Returns to the uncut body of the first revision, not placed. The material stays.
   void reset();
 

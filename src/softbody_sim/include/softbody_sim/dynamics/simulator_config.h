@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "softbody_common/parameters.h"
+#include "softbody_common/parameters/parameter_table.h"
 #include "softbody_sim/elasticity/elasticity.h"
 
 namespace softbody {
@@ -53,7 +53,7 @@ void requireConsistent(const SimulatorConfig& config);
 /// The solver for many simulations from one state.
 SimulatorConfig configForPrediction(SimulatorConfig config);
 
-/// @throw std::invalid_argument as Parameters and requireConsistent do.
-SimulatorConfig readSimulatorConfig(Parameters& parameters);
+/// Their check is requireConsistent.
+const ParameterTable<SimulatorConfig>& simulatorParameters();
 
 }  // namespace softbody

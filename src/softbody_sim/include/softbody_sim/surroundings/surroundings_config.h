@@ -4,7 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "softbody_common/parameters.h"
+#include "softbody_common/parameters/parameter_table.h"
+#include "softbody_sim/constraints/gripper_description.h"
 #include "softbody_sim/constraints/obstacle_description.h"
 #include "softbody_sim/object/pin_region.h"
 
@@ -17,7 +18,7 @@ struct PinOptions {
   double frame_timeout_s = 1.0;  ///< also of obstacles: time without a pose until a frame is faulty
 };
 
-/// What acts on the body, as the simulator's parameters describe it.
+/// What acts on the body.
 struct SurroundingsConfig {
   std::vector<ObstacleDescription> obstacles;
   std::optional<PinRegion> gripper;  ///< the space between the fingers; the fingers are obstacles
@@ -25,10 +26,20 @@ struct SurroundingsConfig {
   PinOptions pins;
 };
 
-/// @param target_accuracy_m standard deviation of a target of weight 1. @param unknown receives unknown keys
-/// of the obstacles and of the gripper's YAML. @throw std::invalid_argument with key, value and allowed
-/// values.
-SurroundingsConfig readSurroundingsConfig(Parameters& parameters, double target_accuracy_m,
-                                          std::vector<std::string>* unknown);
+/// The simulator's parameters of what acts on the body.
+struct SurroundingsParameters {
+  std::vector<ObstacleDescription> obstacles;
+  std::vector<std::string> unknown;  ///< keys of obstacles that have no meaning
+  GripperWords gripper;
+  PinOptions pins;
+};
+
+const ParameterTable<SurroundingsParameters>& surroundingsParameters();
+
+/// Keys of obstacles and of the gripper's YAML that have no meaning. The caller should warn about them.
+std::vector<std::string> unknownKeys(const SurroundingsParameters& parameters);
+
+/// @param target_accuracy_m standard deviation of a target of weight 1.
+SurroundingsConfig surroundingsOf(const SurroundingsParameters& parameters, double target_accuracy_m);
 
 }  // namespace softbody

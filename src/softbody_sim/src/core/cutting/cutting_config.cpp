@@ -1,16 +1,31 @@
 #include "softbody_sim/cutting/cutting_config.h"
 
 namespace softbody {
+namespace {
 
-CuttingConfig readCuttingConfig(Parameters& parameters) {
-  CuttingConfig config;
-  config.min_advance_m = parameters.number("min_advance_m", config.min_advance_m, 1e-4, 0.1);
-  config.slit_tolerance_m = parameters.number("slit_tolerance_m", config.slit_tolerance_m, 0.0, 0.1);
-  config.max_gap_s = parameters.number("max_gap_s", config.max_gap_s, 0.0, 60.0);
-  config.tear_strain = parameters.number("tear_strain", config.tear_strain, 0.0, 100.0);
-  config.max_pieces = parameters.integer("max_pieces", config.max_pieces, 1, 100000);
-  config.undo_memory_mb = parameters.number("undo_memory_mb", config.undo_memory_mb, 0.0, 1e5);
-  return config;
+ParameterTable<CuttingConfig> makeCuttingTable() {
+  ParameterTable<CuttingConfig> table;
+  table.group("cutting");
+  table.number("min_advance_m", &CuttingConfig::min_advance_m, {1e-4, 0.1}, "m",
+               "the blade cuts when its edge is this far beyond the front");
+  table.number("slit_tolerance_m", &CuttingConfig::slit_tolerance_m, {0.0, 0.1}, "m",
+               "a blade within this distance of an earlier cut is in the slit of this cut");
+  table.number("max_gap_s", &CuttingConfig::max_gap_s, {0.0, 60.0}, "s",
+               "a blade that is not seen for longer counts as lifted");
+  table.number("tear_strain", &CuttingConfig::tear_strain, {0.0, 100.0}, "share",
+               "stretch at which the body tears; 0: never");
+  table.number("max_pieces", &CuttingConfig::max_pieces, {1, 100000}, "",
+               "a cut that would leave more pieces is refused");
+  table.number("undo_memory_mb", &CuttingConfig::undo_memory_mb, {0.0, 1e5}, "MB",
+               "memory of the meshes that are kept for undo and redo");
+  return table;
+}
+
+}  // namespace
+
+const ParameterTable<CuttingConfig>& cuttingParameters() {
+  static const ParameterTable<CuttingConfig> table = makeCuttingTable();
+  return table;
 }
 
 }  // namespace softbody

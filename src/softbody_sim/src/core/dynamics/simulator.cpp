@@ -9,13 +9,10 @@
 #include <vector>
 
 #include "constraints/contact_patches.h"
-#include "cutting/volume/edited_volume.h"
 #include "cutting/volume/undo_versions.h"
-#include "dynamics/body_model.h"
-#include "dynamics/body_state.h"
 #include "dynamics/direct_deformation.h"
 #include "dynamics/external_forces.h"
-#include "dynamics/implicit_euler.h"
+#include "dynamics/simulator_implementation.h"
 #include "dynamics/target_validation.h"
 #include "estimation/vertex_deviation.h"
 #include "softbody_common/tet_geometry.h"
@@ -23,35 +20,6 @@
 #include "softbody_common/timeline.h"
 
 namespace softbody {
-
-struct Simulator::Implementation {
-  Implementation(const TetTopology& topology, const Material& material_in, const SimulatorConfig& config_in);
-
-  void setTopology(const TetTopology& topology);
-  void makeModel(const TetTopology& topology);
-  std::size_t undoBytes() const { return static_cast<std::size_t>(1e6 * config.undo_memory_mb); }
-  /// Takes over an edited volume and the body in its shape.
-  void setEdited(EditedVolume edited, BodyState next);
-  /// The targets for the present revision. @param storage holds them if they were for an earlier one.
-  const TargetSet& toCurrentRevision(const TargetSet& targets, TargetSet* storage) const;
-  void requireUsable(const TargetSet& targets, const Surroundings& surroundings) const;
-  void place(const Eigen::Isometry3d& pose, Nanoseconds stamp);
-  void advance(const std::vector<Target>& targets, Nanoseconds stamp, const Surroundings& surroundings);
-  /// Loads, confidence and standard deviation after a step with these targets.
-  void estimate(const std::vector<Target>& targets, const Surroundings& surroundings, double elapsed_s);
-
-  const TetTopology uncut;
-  Material material;
-  const SimulatorConfig config;
-  const double edge_length;  ///< mean, of the uncut body [m]
-
-  EditedVolume volume;
-  std::unique_ptr<BodyModel> model;  ///< for the volume's topology
-  BodyState body;
-  BodyState next;  ///< of a step that may still fail
-
-  ImplicitEuler integrator;
-};
 
 Simulator::Implementation::Implementation(const TetTopology& topology, const Material& material_in,
                                           const SimulatorConfig& config_in)
@@ -84,6 +52,12 @@ void Simulator::Implementation::makeModel(const TetTopology& topology) {
     model = std::make_unique<BodyModel>(before, material, config, edge_length);
     throw;
   }
+}
+
+void Simulator::Implementation::remakeModel() {
+  makeModel(TetTopology(model->topology));
+  body.contact.contacts.clear();  // a depth gives another pressure now
+  integrator = ImplicitEuler(config, material.damping);
 }
 
 const TargetSet& Simulator::Implementation::toCurrentRevision(const TargetSet& targets,
@@ -230,10 +204,19 @@ void Simulator::setMaterial(const Material& material) {
   softbody::requireUsable(material);
   requireUsedRegions(s.uncut, material);
   s.material = material;
-  s.makeModel(TetTopology(s.model->topology));
-  s.body.contact.contacts.clear();  // a depth gives another pressure now
-  s.integrator = ImplicitEuler(s.config, material.damping);
+  s.remakeModel();
   if (s.body.placed) s.body.loads = {Points::Zero(s.body.mesh.vertices.rows(), 3)};
+}
+
+const SimulatorConfig& Simulator::config() const { return implementation_->config; }
+
+void Simulator::setConfig(const SimulatorConfig& config) {
+  Implementation& s = *implementation_;
+  requireConsistent(config);
+  s.config = config;
+  s.remakeModel();
+  s.body.memory = {};
+  if (config.load_fade_s <= 0.0) s.body.mesh.standard_deviation.clear();
 }
 
 std::unique_ptr<Simulator> Simulator::copyOfPresent() const { return copyWith(implementation_->config); }

@@ -8,6 +8,84 @@
 #include "softbody_common/target_limits.h"
 
 namespace softbody {
+namespace {
+
+using Config = SimulatorConfig;
+using Table = ParameterTable<Config>;
+
+void addSolver(Table* table) {
+  table->flag("simulate", &Config::simulate,
+              "false: surface vertices move to their targets without simulation (Figure 6 of the paper)");
+  table->choice<SolverKind>("solver", &Config::solver,
+                            {{"pd", SolverKind::kProjectiveDynamics}, {"fem", SolverKind::kFem}},
+                            "pd is fast; fem is slower and more accurate");
+  std::vector<std::pair<std::string, Elasticity>> elasticities;
+  for (const std::string& name : elasticityNames()) elasticities.emplace_back(name, elasticityFromName(name));
+  table->choice<Elasticity>("elasticity", &Config::elasticity, elasticities,
+                            "neo_hookean and springs need fem; springs also need both smoothings 0");
+  table->number("iterations", &Config::iterations, {1, 1000}, "", "largest number of iterations in a step",
+                Change::kLive);
+  table->number("tolerance", &Config::tolerance, {0.0, 1.0}, "share",
+                "a step has converged when this share of the forces from outside is not balanced",
+                Change::kLive);
+  table->number("strain_smoothing", &Config::strain_smoothing, {0.0, 0.95}, "share",
+                "share of the shear energy with averaged strains");
+  table->number("volume_smoothing", &Config::volume_smoothing, {0.0, 1.0}, "share", "from Poisson's ratio",
+                "share of the volume energy with averaged strains");
+  table->number("lbfgs_history", &Config::lbfgs_history, {0, 5}, "",
+                "number of earlier iterations that L-BFGS uses; 0: plain projective dynamics");
+  table->flag("single_precision", &Config::single_precision,
+              "faster; positions are then precise to about 0.1 µm");
+  table->choice(
+      "simd", &Config::simd, {"auto", "sse4", "avx2", "avx512"},
+      "vector instructions of the solver; loads and standard deviations use the widest; the results "
+      "are equal except for rounding");
+  table->flag("normalized_mass", &Config::normalized_mass, "the body weighs 1 kg, as in the paper");
+}
+
+void addEstimate(Table* table) {
+  table->number("target_stiffness", &Config::target_stiffness, {1e-6, 1e7 / kLargestTargetWeight}, "E × edge",
+                "stiffness of a target of weight 1; with single_precision at most 100", Change::kLive);
+  table->number("target_accuracy_m", &Config::target_accuracy_m, {1e-6, 1.0}, "m",
+                "standard deviation of a target of weight 1; weighs targets against pins");
+  table->number("load_fade_s", &Config::load_fade_s, {0.0, 1e3}, "s",
+                "time in which what is known of unknown loads falls to 1/e; 0: neither loads nor standard "
+                "deviations are estimated",
+                Change::kLive);
+  table->number(
+      "memory_s", &Config::memory_s, {0.0, 1e3}, "s",
+      "time over which measurements of a body at rest are averaged; 0: each frame is taken as it is",
+      Change::kLive);
+  table->number("max_time_step_s", &Config::max_time_step_s, {1e-3, 10.0}, "s",
+                "largest time step; also used for longer gaps between frames", Change::kLive);
+  table->numbers("gravity_m_s2", &Config::gravity, "m/s²", "three numbers",
+                 "gravity in the frame of the targets; zero if the rest shape already includes gravity");
+}
+
+void addContact(Table* table) {
+  table->number("contact_stiffness", &Config::contact_stiffness, {1e-3, 1e4}, "E",
+                "pressure at a penetration of one mean edge", Change::kLive);
+  table->flag("self_contact", &Config::self_contact,
+              "parts of the body cannot enter each other, in steps without targets");
+  table->number("self_friction", &Config::self_friction, {0.0, 10.0}, "",
+                "coefficient of Coulomb friction between these parts", Change::kLive);
+  table->number("contact_spacing", &Config::contact_spacing, {0.1, 100.0}, "mean edge",
+                "distance of the contact points on the surface");
+}
+
+Table makeSimulatorTable() {
+  Table table;
+  table.group("simulator");
+  addSolver(&table);
+  addEstimate(&table);
+  addContact(&table);
+  table.number("undo_memory_mb", &Config::undo_memory_mb, {0.0, 1e5}, "MB",
+               "memory of the tets that are kept for [undo and redo](../cutting.md#limits)");
+  table.check(requireConsistent);
+  return table;
+}
+
+}  // namespace
 
 double largestStiffness(const SimulatorConfig& config) {
   // Then three digits of the body's own stiffness remain in single precision, nine in double precision.
@@ -45,34 +123,9 @@ SimulatorConfig configForPrediction(SimulatorConfig config) {
   return config;
 }
 
-SimulatorConfig readSimulatorConfig(Parameters& parameters) {
-  SimulatorConfig config;
-  if (parameters.choice("solver", "pd", {"pd", "fem"}) == "fem") config.solver = SolverKind::kFem;
-  config.elasticity =
-      elasticityFromName(parameters.choice("elasticity", nameOf(config.elasticity), elasticityNames()));
-  config.simulate = parameters.flag("simulate", config.simulate);
-  config.iterations = parameters.integer("iterations", config.iterations, 1, 1000);
-  config.tolerance = parameters.number("tolerance", config.tolerance, 0.0, 1.0);
-  config.normalized_mass = parameters.flag("normalized_mass", config.normalized_mass);
-  config.lbfgs_history = parameters.integer("lbfgs_history", config.lbfgs_history, 0, 5);
-  config.strain_smoothing = parameters.number("strain_smoothing", config.strain_smoothing, 0.0, 0.95);
-  config.volume_smoothing = parameters.optionalNumber("volume_smoothing", 0.0, 1.0);
-  config.single_precision = parameters.flag("single_precision", config.single_precision);
-  config.simd = parameters.choice("simd", config.simd, {"auto", "sse4", "avx2", "avx512"});
-  config.target_stiffness = parameters.number("target_stiffness", config.target_stiffness, 1e-6, 1e6);
-  config.target_accuracy_m = parameters.number("target_accuracy_m", config.target_accuracy_m, 1e-6, 1.0);
-  config.load_fade_s = parameters.number("load_fade_s", config.load_fade_s, 0.0, 1e3);
-  config.memory_s = parameters.number("memory_s", config.memory_s, 0.0, 1e3);
-  config.contact_stiffness = parameters.number("contact_stiffness", config.contact_stiffness, 1e-3, 1e4);
-  config.self_contact = parameters.flag("self_contact", config.self_contact);
-  config.self_friction = parameters.number("self_friction", config.self_friction, 0.0, 10.0);
-  config.contact_spacing = parameters.number("contact_spacing", config.contact_spacing, 0.1, 100.0);
-  config.max_time_step_s = parameters.number("max_time_step_s", config.max_time_step_s, 1e-3, 10.0);
-  config.undo_memory_mb = parameters.number("undo_memory_mb", config.undo_memory_mb, 0.0, 1e5);
-  const std::vector<double> gravity = parameters.numbers("gravity_m_s2", {0.0, 0.0, 0.0});
-  config.gravity = {gravity[0], gravity[1], gravity[2]};
-  requireConsistent(config);
-  return config;
+const ParameterTable<SimulatorConfig>& simulatorParameters() {
+  static const ParameterTable<SimulatorConfig> table = makeSimulatorTable();
+  return table;
 }
 
 }  // namespace softbody

@@ -28,10 +28,9 @@ std::map<std::string, std::string> valuesOf(const std::vector<std::string>& para
 
 }  // namespace
 
-ObjectLoader::ObjectLoader(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
-                           const SimulatorOptions& options, Owner owner)
-    : scope_(options.scope),
-      config_(options.simulator),
+ObjectLoader::ObjectLoader(const ros::NodeHandle& node, const ros::NodeHandle& private_node, FileScope scope,
+                           Owner owner)
+    : scope_(scope),
       owner_(std::move(owner)),
       parameters_{private_node.resolveName("object")},
       node_calls_(node),
@@ -71,7 +70,7 @@ std::uint32_t ObjectLoader::load(const std::string& object) {
   askSurface(object);
   const std::uint32_t revision = inNode<std::uint32_t>(owner_.revision) + 1;
   loaded.model.volume.revision = revision;
-  use(make(loaded), object);
+  use(make(loaded, inNode<SimulatorConfig>(owner_.config)), object);
   return revision;
 }
 
@@ -85,8 +84,9 @@ void ObjectLoader::askSurface(const std::string& object) {
     throw std::invalid_argument(fmt::format("{}: {}", surface_.getService(), call.response.message));
 }
 
-std::shared_ptr<NextObject> ObjectLoader::make(const SimulatedObject& object) const {
-  auto next = std::make_shared<NextObject>(NextObject{{object.model.volume, object.model.material, config_},
+std::shared_ptr<NextObject> ObjectLoader::make(const SimulatedObject& object,
+                                               const SimulatorConfig& config) const {
+  auto next = std::make_shared<NextObject>(NextObject{{object.model.volume, object.model.material, config},
                                                       object.pins,
                                                       {object.model.visual, object.model.volume}});
   next->simulator.prepare();

@@ -12,8 +12,8 @@
 
 #include "nodes/node_calls.h"
 #include "nodes/own_thread.h"
-#include "nodes/simulator/simulator_options.h"
 #include "softbody_sim/dynamics/simulator.h"
+#include "softbody_sim/ros/simulator_options.h"
 #include "softbody_sim/surroundings/body_surface.h"
 
 namespace softbody {
@@ -31,28 +31,29 @@ struct NextObject {
 /// so that a node that starts again has the same object. Then the node takes it over.
 class ObjectLoader {
  public:
-  /// Both are called in the node's queue.
+  /// All are called in the node's queue.
   struct Owner {
     std::function<std::uint32_t()> revision;  ///< of the present body
+    std::function<SimulatorConfig()> config;  ///< for the next one
     /// Takes over the next object. If it throws std::exception, nothing has changed.
     std::function<void(NextObject*)> use;
   };
 
-  ObjectLoader(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
-               const SimulatorOptions& options, Owner owner);
+  /// @param scope of the files that an object names.
+  ObjectLoader(const ros::NodeHandle& node, const ros::NodeHandle& private_node, FileScope scope,
+               Owner owner);
   ~ObjectLoader();
 
  private:
   bool onLoad(softbody_msgs::LoadObject::Request& request, softbody_msgs::LoadObject::Response& response);
   std::uint32_t load(const std::string& object);
   void askSurface(const std::string& object);
-  std::shared_ptr<NextObject> make(const SimulatedObject& object) const;
+  std::shared_ptr<NextObject> make(const SimulatedObject& object, const SimulatorConfig& config) const;
   void use(const std::shared_ptr<NextObject>& next, const std::string& object);
   template <typename Result>
   Result inNode(std::function<Result()> function);
 
   const FileScope scope_;
-  const SimulatorConfig config_;
   const Owner owner_;
   std::vector<std::string> parameters_;  ///< names of the parameters with the path of the object
   std::atomic<bool> ends_{false};

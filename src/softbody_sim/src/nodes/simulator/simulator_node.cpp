@@ -19,9 +19,18 @@ namespace {
 constexpr char kStage[] = "Soft-body Simulation";
 constexpr int kTargetsQueue = 10;  // target sets, until the newest of them is taken
 
-Simulator makeSimulator(const ObjectModel& model, const SimulatorConfig& config, StageTimer* timer) {
+/// @param options gets the material that is in force.
+Simulator makeSimulator(const ObjectModel& model, SimulatorOptions* options, StageTimer* timer) {
   const auto scope = timer->stage(kStage, true);
-  return {model.volume, model.material, config};
+  const Material material = withParameters(model.material, options->material);
+  options->material = parametersOf(material);
+  return {model.volume, material, options->simulator};
+}
+
+/// Whether a value differs that may change live.
+template <typename Config>
+bool isOther(const ParameterTable<Config>& table, const Config& a, const Config& b) {
+  return table.liveValues(a) != table.liveValues(b);
 }
 
 }  // namespace
@@ -31,25 +40,32 @@ SimulatorNode::SimulatorNode(const ros::NodeHandle& node, const ros::NodeHandle&
 
 SimulatorNode::SimulatorNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
                              const SimulatorOptions& options)
-    : SimulatorNode(node, private_node, options, loadSimulatedObject(options.object, options.scope)) {}
+    : SimulatorNode(node, private_node, options,
+                    loadSimulatedObject(options.object, fileScope(options.allow_outside))) {}
 
 SimulatorNode::SimulatorNode(ros::NodeHandle node, const ros::NodeHandle& private_node,
                              const SimulatorOptions& options, const SimulatedObject& object)
-    : stall_timeout_s_(options.stall_timeout_s),
-      simulator_(makeSimulator(object.model, options.simulator, &timer_)),
-      surroundings_(node, options.surroundings, {object.model.visual, object.model.volume}),
+    : options_(options),
+      simulator_(makeSimulator(object.model, &options_, &timer_)),
+      surroundings_(node, surroundingsOf(options_.surroundings, options_.simulator.target_accuracy_m),
+                    {object.model.visual, object.model.volume}),
       stamps_(node.resolveName(topics::kTargets), StampGate::Repeats::kAccepted),
-      publisher_(node, options.body_frame),
-      forces_(node, options.wrench_frame),
+      publisher_(node, options_.body_frame),
+      forces_(node, options_.wrench_frame),
       diagnostics_(node, private_node, &simulator_, &surroundings_),
       surroundings_input_(node, private_node, &simulator_, &surroundings_),
       targets_(node.getCallbackQueue(), [this](const auto& message) { onTargets(message); }),
       predictions_(node, private_node, [this](const auto& frames) { return present(frames); }),
-      loader_(node, private_node, options,
-              {[this] { return simulator_.topology().revision; },
+      live_parameters_(private_node, simulatorNodeParameters(), &options_,
+                       [this](const SimulatorOptions& next) { applyOptions(next); }),
+      loader_(node, private_node, fileScope(options.allow_outside),
+              {[this] { return simulator_.topology().revision; }, [this] { return simulator_.config(); },
                [this](NextObject* next) { useObject(next); }}) {
-  if (options.surroundings.gripper)
-    gripper_.emplace(node, private_node, options.surroundings, &simulator_, &surroundings_);
+  if (!options_.surroundings.gripper.frame.empty()) {
+    gripper_.emplace(node, private_node,
+                     surroundingsOf(options_.surroundings, options_.simulator.target_accuracy_m), &simulator_,
+                     &surroundings_);
+  }
   for (const PinRegion& pin : object.pins) surroundings_.addPin(pin, object.model.volume);
   publisher_.publishEdited(simulator_, {});
   const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
@@ -59,8 +75,8 @@ SimulatorNode::SimulatorNode(ros::NodeHandle node, const ros::NodeHandle& privat
   edits_subscriber_ = node.subscribe(topics::kSurfaceCuts, 1, &SimulatorNode::onSurfaceEdits, this, hints);
   set_material_ =
       ros::NodeHandle(private_node).advertiseService("set_material", &SimulatorNode::onSetMaterial, this);
-  if (options.free_run_rate_hz > 0.0) {
-    free_run_timer_ = node.createTimer(toDuration(nanoseconds(1.0 / options.free_run_rate_hz)),
+  if (options_.free_run_rate_hz > 0.0) {
+    free_run_timer_ = node.createTimer(toDuration(nanoseconds(1.0 / options_.free_run_rate_hz)),
                                        [this](const ros::TimerEvent&) { onFreeRun(); });
   }
   prepareSoon(&node);
@@ -152,7 +168,8 @@ void SimulatorNode::restart() {
 /// Without images nobody knows whether the hands that deform the body are gone. So the last targets stay.
 void SimulatorNode::onFreeRun() {
   const Nanoseconds now = toNanoseconds(ros::Time::now()), silence = now - toNanoseconds(last_.arrival);
-  if (!clock_.judge(now).accepted() || last_.arrival.isZero() || seconds(silence) < stall_timeout_s_) return;
+  if (!clock_.judge(now).accepted() || last_.arrival.isZero() || seconds(silence) < options_.stall_timeout_s)
+    return;
   std_msgs::Header header = last_.header;
   header.stamp = toTime(toNanoseconds(header.stamp) + silence);  // keeps the latency of the last image
   try {
@@ -254,10 +271,21 @@ void SimulatorNode::publishEdited(const ros::Time& stamp) {
   }
 }
 
+/// What is new in the options takes effect with the next step.
+void SimulatorNode::applyOptions(const SimulatorOptions& next) {
+  if (isOther(simulatorParameters(), next.simulator, options_.simulator))
+    simulator_.setConfig(next.simulator);
+  if (isOther(materialParameters(), next.material, options_.material))
+    simulator_.setMaterial(withParameters(simulator_.material(), next.material));
+}
+
 bool SimulatorNode::onSetMaterial(softbody_msgs::SetMaterial::Request& request,
                                   softbody_msgs::SetMaterial::Response& response) try {
-  simulator_.setMaterial({request.youngs_modulus_pa, request.poisson_ratio, request.density_kg_m3,
-                          request.damping, simulator_.material().regions});
+  SimulatorOptions next = options_;
+  next.material = {request.youngs_modulus_pa, request.poisson_ratio, request.density_kg_m3, request.damping};
+  applyOptions(next);
+  options_ = std::move(next);
+  live_parameters_.publishChanges();
   response.success = 1;
   return true;
 } catch (const std::invalid_argument& error) {
@@ -272,6 +300,10 @@ void SimulatorNode::useObject(NextObject* next) {
     throw std::runtime_error("the body was cut while the object was loaded; load the object again");
   surroundings_.replacePins(next->surface, next->pins, topology);
   simulator_ = std::move(next->simulator);
+  options_.material = parametersOf(simulator_.material());
+  if (isOther(simulatorParameters(), simulator_.config(), options_.simulator))
+    simulator_.setConfig(options_.simulator);  // changed while the object was loaded
+  live_parameters_.publishChanges();
   last_ = {};
   publishOwnEdits();
   malloc_trim(0);  // returns the memory of the object before

@@ -13,22 +13,22 @@
 #include "nodes/simulator/gripper_input.h"
 #include "nodes/simulator/object_loader.h"
 #include "nodes/simulator/simulator_diagnostics.h"
-#include "nodes/simulator/simulator_options.h"
 #include "nodes/simulator/surroundings_input.h"
 #include "nodes/simulator/surroundings_tracker.h"
 #include "nodes/simulator/volume_publisher.h"
 #include "softbody_common/ros/cut_messages.h"
+#include "softbody_common/ros/live_parameters.h"
 #include "softbody_common/ros/newest_only.h"
 #include "softbody_common/ros/stamp_gate.h"
 #include "softbody_common/stage_timer.h"
 #include "softbody_sim/dynamics/simulator.h"
+#include "softbody_sim/ros/simulator_options.h"
 
 namespace softbody {
 
 /// Subscribes to targets, cuts and pins; takes pins and obstacles by service; follows a gripper; predicts;
 /// publishes states of the volumetric model; loads another object. If the targets stop, for example because
-/// the camera stalls, it continues at its own rate. Parameters: ~object, ~body_frame, ~obstacles,
-/// ~gripper_..., ~wrench_frame, ~free_run_rate_hz, ~stall_timeout_s and those of SimulatorConfig.
+/// the camera stalls, it continues at its own rate. Parameters: simulatorNodeParameters().
 class SimulatorNode {
  public:
   /// @throw std::invalid_argument if a parameter or a file of the object cannot be used.
@@ -45,6 +45,7 @@ class SimulatorNode {
   void onCut(const softbody_msgs::CutConstPtr& message);
   void onSurfaceEdits(const softbody_msgs::CutHistoryConstPtr& message);
   void onFreeRun();
+  void applyOptions(const SimulatorOptions& next);
   bool onSetMaterial(softbody_msgs::SetMaterial::Request& request,
                      softbody_msgs::SetMaterial::Response& response);
   void useObject(NextObject* next);
@@ -68,7 +69,7 @@ class SimulatorNode {
     ros::Time arrival;  ///< 0: none since the simulation started
   };
 
-  const double stall_timeout_s_;
+  SimulatorOptions options_;  ///< with the material that is in force
   StageTimer timer_;
   Simulator simulator_;
   SurroundingsTracker surroundings_;
@@ -87,6 +88,7 @@ class SimulatorNode {
   ros::Timer free_run_timer_;
   ros::WallTimer prepare_timer_;
   PredictionService predictions_;
+  LiveParameters live_parameters_;
   ObjectLoader loader_;
 };
 

@@ -14,22 +14,11 @@ using diagnostic_msgs::DiagnosticStatus;
 
 namespace {
 
-/// A longer latency means that the clock does not run with the stamps, as with a bag on the wall clock.
-constexpr double kLongestLatency = 10.0;  // [s]
-
 std::string orUnknown(const std::optional<double>& value, double scale) {
   return value ? fmt::format("{:.2f}", scale * *value) : "not known";
 }
 
 }  // namespace
-
-SurfaceLimits readSurfaceLimits(Parameters& parameters) {
-  SurfaceLimits limits;
-  limits.latency_s = parameters.number("latency_limit_s", limits.latency_s, 0.0, kLongestLatency);
-  limits.volume_drift = parameters.number("volume_drift_limit", limits.volume_drift, 0.0, 100.0);
-  limits.deviation_m = parameters.number("deviation_limit_m", limits.deviation_m, 0.0, 10.0);
-  return limits;
-}
 
 SurfaceDiagnostics::SurfaceDiagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
                                        const SurfaceLimits& limits)
@@ -42,7 +31,7 @@ void SurfaceDiagnostics::onState(const MeshTopology& topology, const MeshState& 
   if (figures_) return;
   Figures figures;
   const double latency = secondsBetween(stamp, ros::Time::now());
-  if (latency >= 0.0 && latency < kLongestLatency) figures.latency_s = latency;
+  if (latency >= 0.0 && latency < kLongestLatency_s) figures.latency_s = latency;
   figures.volume_drift = enclosedVolume(state.vertices, topology.triangles) /
                              enclosedVolume(topology.rest_vertices, topology.triangles) -
                          1.0;

@@ -5,21 +5,11 @@
 #include <optional>
 #include <string>
 
-#include "softbody_common/parameters.h"
 #include "softbody_common/ros/node_diagnostics.h"
 #include "softbody_common/types.h"
+#include "softbody_sim/ros/surface_options.h"
 
 namespace softbody {
-
-/// Values above which the surface warns.
-struct SurfaceLimits {
-  double latency_s = 0.5;     ///< from the image's stamp to the mesh
-  double volume_drift = 0.3;  ///< change of the enclosed volume since rest, as a fraction
-  double deviation_m = 0.02;  ///< mean standard deviation of the vertices
-};
-
-/// @throw std::invalid_argument as Parameters does.
-SurfaceLimits readSurfaceLimits(Parameters& parameters);
 
 /// Diagnostics of the visual mesh, once a second: rate, latency, volume drift, standard deviation.
 class SurfaceDiagnostics {
@@ -27,6 +17,7 @@ class SurfaceDiagnostics {
   SurfaceDiagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
                      const SurfaceLimits& limits);
 
+  void setLimits(const SurfaceLimits& limits) { limits_ = limits; }
   /// A state was published.
   void onState(const MeshTopology& topology, const MeshState& state, const ros::Time& stamp);
   /// A state was not used.
@@ -42,7 +33,7 @@ class SurfaceDiagnostics {
   std::string warning() const;
   void report(NodeDiagnostics::Status* status);
 
-  const SurfaceLimits limits_;
+  SurfaceLimits limits_;
   std::optional<Figures> figures_;  ///< of the first state since the last report
   int states_ = 0, refused_ = 0;    ///< since the last report
   ros::WallTime reported_ = ros::WallTime::now();

@@ -4,8 +4,6 @@
 
 #include "softbody_common/ros/conversions.h"
 #include "softbody_common/ros/cut_messages.h"
-#include "softbody_common/ros/frame_name.h"
-#include "softbody_common/ros/ros_parameters.h"
 #include "softbody_common/topics.h"
 
 namespace softbody {
@@ -25,33 +23,23 @@ void warnOfOutside(const VisualSurface& surface) {
 }  // namespace
 
 SurfaceNode::SurfaceNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node)
-    : SurfaceNode(node, private_node, readOptions(private_node)) {}
+    : SurfaceNode(node, private_node, readSurfaceOptions(private_node)) {}
 
-SurfaceNode::Options SurfaceNode::readOptions(const ros::NodeHandle& private_node) {
-  Parameters parameters = readParameters(private_node);
-  Options options;
-  options.object = parameters.requiredText("object");
-  options.scope = parameters.flag("allow_outside", false) ? FileScope::kAnywhere : FileScope::kOwnFolder;
-  options.body_frame = ownFrame(parameters, "body_frame", private_node, "softbody");
-  options.save_folder = parameters.text("save_folder", ".");
-  options.cutting = readCuttingConfig(parameters);
-  options.limits = readSurfaceLimits(parameters);
-  warnUnknown(parameters);
-  return options;
-}
-
-SurfaceNode::SurfaceNode(ros::NodeHandle node, const ros::NodeHandle& private_node, const Options& options)
-    : body_frame_(options.body_frame),
-      visual_(private_node, options.object, options.scope),
+SurfaceNode::SurfaceNode(ros::NodeHandle node, const ros::NodeHandle& private_node,
+                         const SurfaceOptions& options)
+    : options_(options),
+      visual_(private_node, options_.object, fileScope(options_.allow_outside)),
       stamps_(node.resolveName(topics::kVolumeState), StampGate::Repeats::kAccepted),
       publisher_(node),
       cut_display_(node),
-      editor_(node, body_frame_, &visual_, options.cutting, [this] { useWaitingTopology(); }),
+      editor_(node, options_.body_frame, &visual_, options_.cutting, [this] { useWaitingTopology(); }),
       services_(
-          private_node, body_frame_, &editor_,
+          private_node, options_.body_frame, &editor_,
           [this](const CutPreview& preview) { cut_display_.startPreview(preview, editor_.body().volume()); }),
-      queries_(private_node, options.save_folder),
-      diagnostics_(node, private_node, options.limits) {
+      queries_(private_node, options_.save_folder),
+      diagnostics_(node, private_node, options_.limits),
+      live_parameters_(private_node, surfaceNodeParameters(), &options_,
+                       [this](const SurfaceOptions& next) { diagnostics_.setLimits(next.limits); }) {
   edits_timeout_ = node.createWallTimer(
       ros::WallDuration(kLongestWaitForEdits), [this](const ros::WallTimerEvent&) { onLateEdits(); }, true,
       false);
@@ -154,7 +142,7 @@ void SurfaceNode::startBody(const softbody_msgs::TetTopology& message) {
 /// @param with_next_state publish a later revision together with its first state; until then the earlier
 /// surface stays.
 void SurfaceNode::bind(const softbody_msgs::TetTopologyConstPtr& message, bool with_next_state) {
-  BoundSurface binding = bindTo(message, editor_.body().surface(), body_frame_);
+  BoundSurface binding = bindTo(message, editor_.body().surface(), options_.body_frame);
   if (with_next_state && binding_ && message->revision > binding_->volume->revision)
     next_binding_ = std::move(binding);
   else

@@ -16,31 +16,23 @@
 #include "nodes/surface/surface_editor.h"
 #include "nodes/surface/surface_publisher.h"
 #include "nodes/surface/surface_queries.h"
+#include "softbody_common/ros/live_parameters.h"
 #include "softbody_common/ros/stamp_gate.h"
 #include "softbody_common/stage_timer.h"
 #include "softbody_common/types.h"
+#include "softbody_sim/ros/surface_options.h"
 
 namespace softbody {
 
 /// Subscribes to states and edits of the volumetric model; publishes states of the visual mesh; decides on
-/// cuts; answers questions about the surface. Parameters: ~object, ~body_frame, ~save_folder and those of
-/// CuttingConfig.
+/// cuts; answers questions about the surface. Parameters: surfaceNodeParameters().
 class SurfaceNode {
  public:
   /// @throw std::invalid_argument if a parameter or a file of the object cannot be used.
   SurfaceNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node);
 
  private:
-  struct Options {
-    std::string body_frame;
-    std::string save_folder;
-    CuttingConfig cutting;
-    SurfaceLimits limits;
-    std::string object;
-    FileScope scope = FileScope::kOwnFolder;
-  };
-  static Options readOptions(const ros::NodeHandle& private_node);
-  SurfaceNode(ros::NodeHandle node, const ros::NodeHandle& private_node, const Options& options);
+  SurfaceNode(ros::NodeHandle node, const ros::NodeHandle& private_node, const SurfaceOptions& options);
 
   void onTopology(const softbody_msgs::TetTopologyConstPtr& message);
   void onVolumeEdits(const softbody_msgs::CutHistoryConstPtr& message);
@@ -59,7 +51,7 @@ class SurfaceNode {
   void useState(const softbody_msgs::MeshStateConstPtr& message);
   void publishState(const softbody_msgs::MeshState& volume);
 
-  const std::string body_frame_;
+  SurfaceOptions options_;
   ObjectVisual visual_;
   StampGate stamps_;  ///< of the volume's states
   StageTimer timer_;
@@ -75,6 +67,7 @@ class SurfaceNode {
   CutServices services_;
   SurfaceQueries queries_;
   SurfaceDiagnostics diagnostics_;
+  LiveParameters live_parameters_;
   ros::WallTimer edits_timeout_;  ///< ends the wait of waiting_topology_
   ros::Subscriber topology_subscriber_, edits_subscriber_, state_subscriber_;
 };

@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "softbody_common/parameters.h"
+#include "softbody_common/parameters/parameter_table.h"
 #include "softbody_tracking/camera/camera_images.h"
 #include "softbody_tracking/rgbd_frame.h"
 
@@ -17,8 +17,7 @@ struct CameraIngestConfig {
   bool keep_all_depth = false;                  ///< neither range nor edges remove depth (evaluation)
 };
 
-/// @throw std::invalid_argument as Parameters does.
-CameraIngestConfig readCameraIngestConfig(Parameters& parameters);
+const ParameterTable<CameraIngestConfig>& cameraIngestParameters();
 
 /// Makes a rectified RgbdFrame without flying pixels from raw colour and registered depth.
 class CameraIngest {

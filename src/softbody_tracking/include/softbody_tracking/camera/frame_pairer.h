@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "softbody_common/parameters.h"
+#include "softbody_common/parameters/parameter_table.h"
 #include "softbody_common/timeline.h"
 
 namespace softbody {
@@ -21,8 +21,7 @@ struct PairingConfig {
   bool every_color = false;            ///< every colour image makes a frame, also without depth (evaluation)
 };
 
-/// @throw std::invalid_argument with key, value and range.
-PairingConfig readPairingConfig(Parameters& parameters);
+const ParameterTable<PairingConfig>& pairingParameters();
 
 /// Images that are in no frame.
 struct UnpairedImages {

@@ -8,7 +8,6 @@
 #include <set>
 #include <string>
 
-#include "softbody_common/parameters.h"
 #include "softbody_tracking/camera/camera_images.h"
 
 namespace softbody {
@@ -61,8 +60,5 @@ class CameraReader {
   Note note_;
   std::set<std::string> told_;
 };
-
-/// @return metres per unit; 0: by the encoding. @throw std::invalid_argument as Parameters does.
-double readDepthScale(Parameters& parameters);
 
 }  // namespace softbody

@@ -2,7 +2,6 @@
 
 #include <string>
 
-#include "softbody_common/parameters.h"
 #include "softbody_tracking/robot/robot_description.h"
 
 namespace softbody {
@@ -11,8 +10,5 @@ namespace softbody {
 /// @param folder where the relative paths of meshes start.
 /// @throw std::invalid_argument as readRobotDescription.
 RobotDescription readRobot(const std::string& urdf, const std::string& folder);
-
-/// Reads `robot_deviation_m`, see robotSurfaces(). @throw std::invalid_argument as Parameters does.
-double readRobotDeviation(Parameters& parameters);
 
 }  // namespace softbody

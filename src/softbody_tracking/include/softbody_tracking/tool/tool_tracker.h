@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "softbody_common/parameters.h"
+#include "softbody_common/parameters/parameter_table.h"
 #include "softbody_common/stage_timer.h"
 #include "softbody_tracking/rgbd_frame.h"
 #include "softbody_tracking/tool/tool_description.h"
@@ -22,8 +22,7 @@ struct ToolTrackerConfig {
   double bridge_time_s = 0.3;  ///< how long a tool that is not seen is predicted
 };
 
-/// @throw std::invalid_argument as Parameters does.
-ToolTrackerConfig readToolTrackerConfig(Parameters& parameters);
+const ParameterTable<ToolTrackerConfig>& toolTrackerParameters();
 
 /// Rows and columns: x y z [m], then small rotations about the camera's x y z axes through the tool's origin
 /// [rad], as in geometry_msgs/PoseWithCovariance.

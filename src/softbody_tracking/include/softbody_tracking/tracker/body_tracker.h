@@ -38,6 +38,8 @@ class BodyTracker {
   /// tracking continues, and the next state must have their revision. Otherwise tracking starts again.
   /// @throw std::invalid_argument if the volume has no tet, or if a tet or a triangle names a missing vertex.
   void setTopologies(const TetTopology& volume, const MeshTopology& surface);
+  /// Changes weights and limits for the next frames, not modes; what was learned is kept.
+  void setConfig(const TrackerConfig& config);
   /// Whether the models are set.
   bool ready() const;
   /// Whether models are the present body after an edit: their revision is greater, and what remains of the

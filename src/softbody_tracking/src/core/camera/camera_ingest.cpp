@@ -39,14 +39,30 @@ Eigen::AngleAxisd rotation(const Distortion& distortion) {
       Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(distortion.R.val).eval());
 }
 
+void requireDepthRange(const CameraIngestConfig& config) {
+  if (config.max_depth_m >= config.min_depth_m) return;
+  throw std::invalid_argument(fmt::format("max_depth_m is {}; allowed: min_depth_m, which is {}, or more",
+                                          config.max_depth_m, config.min_depth_m));
+}
+
+ParameterTable<CameraIngestConfig> makeCameraIngestTable() {
+  using Config = CameraIngestConfig;
+  ParameterTable<Config> table;
+  table.group("camera_ingest");
+  table.number("edge_jump_ratio", &Config::edge_jump_ratio, {0.001, 1.0}, "of z", "r above", Change::kLive);
+  table.number("min_depth_m", &Config::min_depth_m, {0.001, 100.0}, "m", "smallest depth that is used",
+               Change::kLive);
+  table.number("max_depth_m", &Config::max_depth_m, {0.001, 100.0}, "m",
+               "largest depth that is used, at least `min_depth_m`", Change::kLive);
+  table.check(requireDepthRange);
+  return table;
+}
+
 }  // namespace
 
-CameraIngestConfig readCameraIngestConfig(Parameters& parameters) {
-  CameraIngestConfig config;
-  config.edge_jump_ratio = parameters.number("edge_jump_ratio", config.edge_jump_ratio, 0.001, 1.0);
-  config.min_depth_m = parameters.number("min_depth_m", config.min_depth_m, 0.001, 100.0);
-  config.max_depth_m = parameters.number("max_depth_m", config.max_depth_m, config.min_depth_m, 100.0);
-  return config;
+const ParameterTable<CameraIngestConfig>& cameraIngestParameters() {
+  static const ParameterTable<CameraIngestConfig> table = makeCameraIngestTable();
+  return table;
 }
 
 struct CameraIngest::Implementation {

@@ -14,6 +14,8 @@ class FeatureMap {
  public:
   explicit FeatureMap(const FeatureConfig& config) : config_(config) {}
 
+  void setConfig(const FeatureConfig& config) { config_ = config; }
+
   const std::vector<MapFeature>& features() const { return features_; }
 
   /// Scores for each expected feature whether it was found.

@@ -185,6 +185,11 @@ TrackingResult BodyTracker::Implementation::track(const RgbdFrame& frame, const 
   return result;
 }
 
+void BodyTracker::setConfig(const TrackerConfig& config) {
+  implementation_->config = config;
+  if (implementation_->observer) implementation_->observer->setConfig(config);
+}
+
 void BodyTracker::Implementation::setTopologies(const TetTopology& volume, const MeshTopology& surface) {
   if (hasTopologies(volume, surface)) return;
   const bool edited = isEdit(volume, surface);

@@ -27,6 +27,8 @@ class FeatureAdmission {
  public:
   explicit FeatureAdmission(const FeatureConfig& config) : config_(config) {}
 
+  void setConfig(const FeatureConfig& config) { config_ = config; }
+
   /// Admits new features if this is due.
   void admit(const LearnedFrame& from, FeatureMap* map);
 

@@ -33,6 +33,8 @@ class FeatureFinder {
  public:
   explicit FeatureFinder(const TrackerConfig& config) : features_(config.features) {}
 
+  void setConfig(const FeatureConfig& config) { features_ = config; }
+
   /// The features that the frame should show. None is looked for yet.
   FoundFeatures expect(const SoughtFeatures& sought, const PredictedSurface& surface,
                        const Labels& labels) const;

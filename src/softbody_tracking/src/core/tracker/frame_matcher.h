@@ -13,6 +13,8 @@ class FrameMatcher {
  public:
   explicit FrameMatcher(const FeatureConfig& config) : config_(config) {}
 
+  void setConfig(const FeatureConfig& config) { config_ = config; }
+
   /// Compares the descriptors of the expected features with all keypoints by brute force. A pair is taken if
   /// each is the other's nearest. Outliers are marked. @param known FeatureMap::features(). @param expected
   /// says which features can be seen; where they are expected does not matter.

@@ -22,6 +22,16 @@ FrameObserver::FrameObserver(const TrackerConfig& config, const TetTopology& vol
       guesses_(config),
       admission_(config.features) {}
 
+void FrameObserver::setConfig(const TrackerConfig& config) {
+  config_ = config;
+  view_settings_ = ViewSettings(config);
+  weights_ = MeasurementWeights(config, model_->volume());
+  map_.setConfig(config.features);
+  finder_.setConfig(config.features);
+  guesses_.setConfig(config.features);
+  admission_.setConfig(config.features);
+}
+
 void FrameObserver::setTopologies(const TetTopology& volume, const MeshTopology& surface) {
   map_.rebind(model_->volume(), volume);
   model_ = std::make_shared<SurfaceModel>(volume, surface);

@@ -29,6 +29,9 @@ class FrameObserver {
  public:
   FrameObserver(const TrackerConfig& config, const TetTopology& volume, const MeshTopology& surface);
 
+  /// Changes weights and limits.
+  void setConfig(const TrackerConfig& config);
+
   /// Continues with the edited body. What was learned is kept.
   void setTopologies(const TetTopology& volume, const MeshTopology& surface);
 

@@ -50,6 +50,11 @@ class Guesses {
   explicit Guesses(const TrackerConfig& config)
       : between_frames_(config.features.between_frames), finder_(config), frame_matcher_(config.features) {}
 
+  void setConfig(const FeatureConfig& config) {
+    finder_.setConfig(config);
+    frame_matcher_.setConfig(config);
+  }
+
   /// The best guess. @param prediction the rendered prediction.
   Guess best(const GuessedBody& body, View prediction);
 

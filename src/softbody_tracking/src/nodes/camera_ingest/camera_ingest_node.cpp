@@ -8,27 +8,27 @@
 
 namespace softbody {
 
-CameraIngestNode::CameraIngestNode(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle) {
-  Parameters parameters = readParameters(private_handle);
-  const PairingConfig pairing = readPairingConfig(parameters);
-  const double voxel_size_m = parameters.number("voxel_size_m", 0.0, 0.0, 1.0);
-  const WatchLimits limits = readWatchLimits(parameters);
-  ingest_.emplace(readCameraIngestConfig(parameters));
-  const double depth_scale = readDepthScale(parameters);
-  const std::string transport = parameters.text("image_transport", "raw");
-  const Transports transports{parameters.text("color_transport", transport),
-                              parameters.text("depth_transport", transport)};
-  warnUnknown(parameters);
-  pairer_.emplace(pairing);
-  outputs_.emplace(handle, voxel_size_m, static_cast<std::uint32_t>(pairing.queue_size));
-  watch_.emplace(handle, private_handle, pairing, limits, [this] { return streamTopics(); });
+CameraIngestNode::CameraIngestNode(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle)
+    : options_(readOptions(private_handle, cameraIngestNodeParameters())) {
+  const auto queue_size = static_cast<std::uint32_t>(options_.pairing.queue_size);
+  ingest_.emplace(options_.ingest);
+  pairer_.emplace(options_.pairing);
+  outputs_.emplace(handle, options_.voxel_size_m, queue_size);
+  watch_.emplace(handle, private_handle, options_.pairing, options_.limits,
+                 [this] { return streamTopics(); });
   const auto lookup = [this](const auto& target, const auto& source, const auto&) {
     return newestTransform(target, source);
   };
   reader_.emplace(CameraReader::Config{handle.resolveName(topics::kCameraColor),
-                                       handle.resolveName(topics::kCameraDepth), depth_scale},
+                                       handle.resolveName(topics::kCameraDepth), options_.depth_scale},
                   lookup, [](const std::string& sentence) { ROS_WARN_STREAM(sentence); });
-  subscribe(handle, transports, static_cast<std::uint32_t>(pairing.queue_size));
+  subscribe(handle, queue_size);
+  live_parameters_.emplace(private_handle, cameraIngestNodeParameters(), &options_,
+                           [this](const CameraIngestOptions& next) {
+                             ingest_.emplace(next.ingest);
+                             outputs_->setVoxelSize(next.voxel_size_m);
+                             watch_->setLimits(next.limits);
+                           });
 }
 
 CameraIngestNode::~CameraIngestNode() {
@@ -41,8 +41,10 @@ CameraIngestNode::~CameraIngestNode() {
   watch_.reset();
 }
 
-void CameraIngestNode::subscribe(ros::NodeHandle handle, const Transports& transports,
-                                 std::uint32_t queue_size) {
+void CameraIngestNode::subscribe(ros::NodeHandle handle, std::uint32_t queue_size) {
+  const auto transport = [this](const std::string& own) {
+    return own.empty() ? options_.image_transport : own;
+  };
   const auto refuse = [this](const std::string& why) { watch_->noteRefusal(why); };
   const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
   color_info_ =
@@ -50,10 +52,10 @@ void CameraIngestNode::subscribe(ros::NodeHandle handle, const Transports& trans
   depth_info_subscriber_ = handle.subscribe<sensor_msgs::CameraInfo>(
       topics::kCameraDepthInfo, queue_size, [this](const auto& info) { depth_info_ = info; }, {}, hints);
   color_.emplace(
-      handle, topics::kCameraColor, transports.color, queue_size,
+      handle, topics::kCameraColor, transport(options_.color_transport), queue_size,
       [this](const auto& image) { onColor(image); }, refuse);
   depth_.emplace(
-      handle, topics::kCameraDepth, transports.depth, queue_size,
+      handle, topics::kCameraDepth, transport(options_.depth_transport), queue_size,
       [this](const auto& image) { onDepth(image); }, refuse);
 }
 

@@ -10,11 +10,12 @@
 #include "nodes/camera_ingest/camera_ingest_outputs.h"
 #include "nodes/camera_ingest/camera_ingest_watch.h"
 #include "nodes/camera_ingest/image_input.h"
-#include "softbody_common/parameters.h"
+#include "softbody_common/ros/live_parameters.h"
 #include "softbody_common/ros/transform_input.h"
 #include "softbody_tracking/camera/camera_ingest.h"
 #include "softbody_tracking/camera/frame_pairer.h"
 #include "softbody_tracking/ros/camera_reader.h"
+#include "softbody_tracking/ros/node_options.h"
 
 namespace softbody {
 
@@ -29,11 +30,7 @@ class CameraIngestNode {
   using Pairer =
       FramePairer<sensor_msgs::ImageConstPtr, sensor_msgs::ImageConstPtr, sensor_msgs::CameraInfoConstPtr>;
 
-  struct Transports {
-    std::string color, depth;
-  };
-
-  void subscribe(ros::NodeHandle handle, const Transports& transports, std::uint32_t queue_size);
+  void subscribe(ros::NodeHandle handle, std::uint32_t queue_size);
   StreamTopics streamTopics() const;
 
   void onColor(const sensor_msgs::ImageConstPtr& image);
@@ -44,6 +41,7 @@ class CameraIngestNode {
   IngestedFrame ingest(const Pairer::Frame& images, const std_msgs::Header& header);
   Eigen::Isometry3d newestTransform(const std::string& target, const std::string& source);
 
+  CameraIngestOptions options_;
   std::optional<CameraReader> reader_;
   std::optional<CameraIngest> ingest_;
   std::optional<Pairer> pairer_;
@@ -54,6 +52,7 @@ class CameraIngestNode {
   sensor_msgs::CameraInfoConstPtr depth_info_;
   std::optional<ImageInput> color_, depth_;
   ros::Subscriber color_info_, depth_info_subscriber_;
+  std::optional<LiveParameters> live_parameters_;
 };
 
 }  // namespace softbody

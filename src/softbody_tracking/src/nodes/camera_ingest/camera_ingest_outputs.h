@@ -33,6 +33,8 @@ class CameraIngestOutputs {
   /// none may be lost: subscribers choose for themselves whether they want the newest alone.
   CameraIngestOutputs(ros::NodeHandle handle, double voxel_size_m, std::uint32_t queue_size);
 
+  void setVoxelSize(double voxel_size_m) { voxel_size_m_ = voxel_size_m; }
+
   bool hasSubscriber() const;
   /// Whether points are published, which need the frame's colour.
   bool hasPointSubscriber() const;

@@ -40,14 +40,6 @@ bool clockIsSilent() { return ros::Time::isSimTime() && ros::Time::now().isZero(
 
 }  // namespace
 
-WatchLimits readWatchLimits(Parameters& parameters) {
-  WatchLimits limits;
-  limits.silence_timeout_s = readSilenceTimeout(parameters);
-  limits.latency_s = parameters.number("latency_limit_s", limits.latency_s, 0.0, 3600.0);
-  limits.lead_s = parameters.number("lead_limit_s", limits.lead_s, 0.0, 3600.0);
-  return limits;
-}
-
 CameraIngestWatch::CameraIngestWatch(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle,
                                      const PairingConfig& pairing, const WatchLimits& limits,
                                      std::function<StreamTopics()> topics)

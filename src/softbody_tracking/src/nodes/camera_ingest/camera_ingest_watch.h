@@ -11,24 +11,13 @@
 
 #include "nodes/frame_watchdog.h"
 #include "nodes/throttled_log.h"
-#include "softbody_common/parameters.h"
 #include "softbody_common/ros/node_diagnostics.h"
 #include "softbody_tracking/camera/frame_pairer.h"
 #include "softbody_tracking/camera/stream_monitor.h"
 #include "softbody_tracking/camera/sync_monitor.h"
+#include "softbody_tracking/ros/node_options.h"
 
 namespace softbody {
-
-/// Times above which camera_ingest warns.
-struct WatchLimits {
-  double silence_timeout_s = 0.0;  ///< without a frame
-  /// From an image's stamp to its complete frame. More is not a slow machine: the clocks differ.
-  double latency_s = 2.0;
-  double lead_s = 0.1;  ///< of a stamp before this machine's clock
-};
-
-/// @throw std::invalid_argument as Parameters does.
-WatchLimits readWatchLimits(Parameters& parameters);
 
 /// Watches the streams of camera_ingest: explains in the log and in /diagnostics why no frame comes, what is
 /// wrong with the frames that come, their rate and their latency, and how far colour and depth are apart.
@@ -38,6 +27,9 @@ class CameraIngestWatch {
   CameraIngestWatch(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle,
                     const PairingConfig& pairing, const WatchLimits& limits,
                     std::function<StreamTopics()> topics);
+
+  /// Of latency and lead; the time of silence stays.
+  void setLimits(const WatchLimits& limits) { limits_ = limits; }
 
   /// An image reached the pairer. Logs why it was dropped.
   void noteImage(Stream stream, const ros::Time& stamp, const StampVerdict& verdict);
@@ -64,7 +56,7 @@ class CameraIngestWatch {
   std::map<std::string, std::string> publishedTopics() const;
   std::vector<Remark> remarks() const;
 
-  const WatchLimits limits_;
+  WatchLimits limits_;
   const Nanoseconds tolerance_;  ///< largest difference of the stamps of colour and depth; 0: none
   std::function<StreamTopics()> topics_;
   std::string own_namespace_;

@@ -20,12 +20,10 @@ constexpr double kConnectionTimeout_s = 3.0;
 constexpr double kSetPoseTimeout_s = 0.5;  // [s] to wait for tf; a person waits for the answer
 
 /// The body is tracked without its picture, too.
-cv::Mat3b loadPicture(Parameters& parameters) {
-  const FileScope scope =
-      parameters.flag("allow_outside", false) ? FileScope::kAnywhere : FileScope::kOwnFolder;
-  const std::string object = parameters.text("object", "");
+cv::Mat3b loadPicture(const FeatureTrackerOptions& options) {
+  if (options.object.empty()) return {};
   try {
-    return object.empty() ? cv::Mat3b() : readObjectTexture(object, scope);
+    return readObjectTexture(options.object, fileScope(options.allow_outside));
   } catch (const std::invalid_argument& error) {
     ROS_WARN_STREAM("the body is searched for without its picture: " << error.what());
     return {};
@@ -41,28 +39,32 @@ diagnostic_msgs::DiagnosticStatus::_level_type diagnosticLevel(TrackingState sta
 }  // namespace
 
 FeatureTrackerNode::FeatureTrackerNode(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle)
-    : FeatureTrackerNode(handle, private_handle, readParameters(private_handle)) {}
+    : FeatureTrackerNode(handle, private_handle,
+                         readOptions(private_handle, featureTrackerNodeParameters())) {}
 
 FeatureTrackerNode::FeatureTrackerNode(const ros::NodeHandle& handle, ros::NodeHandle private_handle,
-                                       Parameters parameters)
-    : output_frame_(parameters),
-      tracker_(readTrackerConfig(parameters), loadPicture(parameters)),
-      publisher_(handle, output_frame_.claim(ownFrame(parameters, "body_frame", private_handle, "softbody"))),
+                                       const FeatureTrackerOptions& options)
+    : options_(options),
+      output_frame_(options.output_frame),
+      tracker_(options.tracker, loadPicture(options)),
+      publisher_(handle,
+                 output_frame_.claim(ownFrame(options.body_frame, "body_frame", private_handle, "softbody"))),
       stamps_(handle.resolveName(topics::kRgbRect)),
-      watchdog_(readSilenceTimeout(parameters)),
+      watchdog_(options.silence_timeout_s),
       body_(handle, &tracker_, [this, private_handle] { readPicture(private_handle); }),
       blade_(handle, [this](const auto& header) { return output_frame_.poseOf(header, camera_frame_, 0.0); }),
       known_(subscribeToKnown(
-          handle, parameters,
+          handle, options.known_surfaces,
           [this](const auto& header) { return output_frame_.poseOf(header, camera_frame_, 0.0); })),
-      robot_(makeRobotLinks(handle, parameters, &output_frame_)),
+      robot_(makeRobotLinks(handle, options.robot, &output_frame_)),
       set_pose_(private_handle.advertiseService("set_pose", &FeatureTrackerNode::onSetPose, this)),
       find_again_(private_handle.advertiseService("find_again", &FeatureTrackerNode::onFindAgain, this)),
       mask_synchronizer_(makeMaskSynchronizer(
-          handle, parameters, [this](const auto& frame, const auto& mask) { track(frame, mask); })),
+          handle, options.mask, [this](const auto& frame, const auto& mask) { track(frame, mask); })),
       images_(handle, [this](const RectifiedImages& images) { onFrame(images); }),
-      diagnostics_(handle, private_handle, "tracking", [this](auto& status) { diagnose(status); }) {
-  warnUnknown(parameters);
+      diagnostics_(handle, private_handle, "tracking", [this](auto& status) { diagnose(status); }),
+      live_parameters_(private_handle, featureTrackerNodeParameters(), &options_,
+                       [this](const FeatureTrackerOptions& next) { tracker_.setConfig(next.tracker); }) {
   reportSilence();
   // Wall time: without /clock a simulated timer never fires.
   silence_timer_ = ros::NodeHandle(handle).createWallTimer(
@@ -71,8 +73,8 @@ FeatureTrackerNode::FeatureTrackerNode(const ros::NodeHandle& handle, ros::NodeH
 
 /// The simulator changes the parameter ~object before it publishes another object.
 void FeatureTrackerNode::readPicture(const ros::NodeHandle& private_handle) {
-  Parameters parameters = readParameters(private_handle);
-  tracker_.setPicture(loadPicture(parameters));
+  private_handle.getParam("object", options_.object);
+  tracker_.setPicture(loadPicture(options_));
 }
 
 bool FeatureTrackerNode::onSetPose(softbody_msgs::SetPose::Request& request,

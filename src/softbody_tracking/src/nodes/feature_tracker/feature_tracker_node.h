@@ -19,9 +19,10 @@
 #include "nodes/output_frame.h"
 #include "nodes/rectified_image_subscriber.h"
 #include "nodes/throttled_log.h"
-#include "softbody_common/parameters.h"
+#include "softbody_common/ros/live_parameters.h"
 #include "softbody_common/ros/node_diagnostics.h"
 #include "softbody_common/ros/stamp_gate.h"
+#include "softbody_tracking/ros/node_options.h"
 #include "softbody_tracking/tracker/body_tracker.h"
 #include "status/state_announcer.h"
 
@@ -35,7 +36,8 @@ class FeatureTrackerNode {
   FeatureTrackerNode(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle);
 
  private:
-  FeatureTrackerNode(const ros::NodeHandle& handle, ros::NodeHandle private_handle, Parameters parameters);
+  FeatureTrackerNode(const ros::NodeHandle& handle, ros::NodeHandle private_handle,
+                     const FeatureTrackerOptions& options);
 
   void readPicture(const ros::NodeHandle& private_handle);
   void onFrame(const RectifiedImages& images);
@@ -52,6 +54,7 @@ class FeatureTrackerNode {
   void diagnose(NodeDiagnostics::Status& status) const;
 
   // Subscribers, services and timers come last, so that they are the first to be destroyed.
+  FeatureTrackerOptions options_;
   OutputFrame output_frame_;
   BodyTracker tracker_;
   TrackingPublisher publisher_;
@@ -74,6 +77,7 @@ class FeatureTrackerNode {
   RectifiedImageSubscriber images_;
   ros::WallTimer silence_timer_;
   NodeDiagnostics diagnostics_;
+  LiveParameters live_parameters_;
 };
 
 }  // namespace softbody

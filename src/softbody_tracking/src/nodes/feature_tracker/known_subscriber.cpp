@@ -84,10 +84,10 @@ void KnownSubscriber::warnIfAbsent() const {
 }
 
 std::vector<std::unique_ptr<KnownSubscriber>> subscribeToKnown(const ros::NodeHandle& handle,
-                                                               Parameters& parameters,
+                                                               const std::vector<std::string>& surfaces,
                                                                const KnownSubscriber::PoseLookup& look_up) {
   std::vector<std::unique_ptr<KnownSubscriber>> subscribers;
-  for (const std::string& name : parameters.texts("known_surfaces")) {
+  for (const std::string& name : surfaces) {
     const std::string surface = surfaceOf(name);
     std::string why;
     if (!ros::names::validate(surface, why))

@@ -12,7 +12,6 @@
 #include <string>
 #include <vector>
 
-#include "softbody_common/parameters.h"
 #include "softbody_common/ros/stamp_gate.h"
 #include "softbody_tracking/known/followed_surface.h"
 
@@ -49,11 +48,11 @@ class KnownSubscriber {
   ros::Subscriber topology_subscriber_, state_subscriber_;
 };
 
-/// Subscribers of the surfaces that the parameter `known_surfaces` lists: namespaces of topics, or their
-/// topics.
+/// Subscribers of other surfaces. @param surfaces the parameter `known_surfaces`: namespaces of topics, or
+/// their topics.
 /// @throw std::invalid_argument for a name that no topic can have, and for the body's own surface.
 std::vector<std::unique_ptr<KnownSubscriber>> subscribeToKnown(const ros::NodeHandle& handle,
-                                                               Parameters& parameters,
+                                                               const std::vector<std::string>& surfaces,
                                                                const KnownSubscriber::PoseLookup& look_up);
 
 }  // namespace softbody

@@ -61,12 +61,11 @@ void MaskSynchronizer::passReadyFrames() {
   }
 }
 
-std::unique_ptr<MaskSynchronizer> makeMaskSynchronizer(const ros::NodeHandle& handle, Parameters& parameters,
+std::unique_ptr<MaskSynchronizer> makeMaskSynchronizer(const ros::NodeHandle& handle,
+                                                       const MaskOptions& options,
                                                        MaskSynchronizer::Callback callback) {
-  const bool use_mask = parameters.flag("use_mask", false);
-  const double timeout_s = parameters.number("mask_timeout_s", 0.3, 0.0, 5.0);
-  if (!use_mask) return nullptr;
-  return std::make_unique<MaskSynchronizer>(handle, timeout_s, std::move(callback));
+  if (!options.use) return nullptr;
+  return std::make_unique<MaskSynchronizer>(handle, options.timeout_s, std::move(callback));
 }
 
 }  // namespace softbody

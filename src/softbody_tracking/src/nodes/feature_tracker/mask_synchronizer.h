@@ -9,7 +9,7 @@
 
 #include "camera/mask_queue.h"
 #include "nodes/rectified_image_subscriber.h"
-#include "softbody_common/parameters.h"
+#include "softbody_tracking/ros/node_options.h"
 
 namespace softbody {
 
@@ -46,9 +46,9 @@ class MaskSynchronizer {
   ros::WallTimer timer_;
 };
 
-/// Reads `use_mask` and `mask_timeout_s`. @return nullptr if no masks are used.
-/// @throw std::invalid_argument as Parameters does.
-std::unique_ptr<MaskSynchronizer> makeMaskSynchronizer(const ros::NodeHandle& handle, Parameters& parameters,
+/// @return nullptr if no masks are used.
+std::unique_ptr<MaskSynchronizer> makeMaskSynchronizer(const ros::NodeHandle& handle,
+                                                       const MaskOptions& options,
                                                        MaskSynchronizer::Callback callback);
 
 }  // namespace softbody

@@ -36,10 +36,9 @@ std::optional<Eigen::Isometry3d> RobotLinks::poseOf(const std::string& link, con
   return std::nullopt;
 }
 
-std::unique_ptr<RobotLinks> makeRobotLinks(const ros::NodeHandle& handle, Parameters& parameters,
+std::unique_ptr<RobotLinks> makeRobotLinks(const ros::NodeHandle& handle, const RobotOptions& options,
                                            const OutputFrame* frame) {
-  const std::string name = parameters.text("robot", "");
-  const double deviation_m = readRobotDeviation(parameters);
+  const std::string& name = options.description;
   if (name.empty()) return nullptr;
   std::string place, urdf;
   if (!handle.searchParam(name, place) || !handle.getParam(place, urdf))
@@ -51,7 +50,7 @@ std::unique_ptr<RobotLinks> makeRobotLinks(const ros::NodeHandle& handle, Parame
   for (const std::string& warning : robot.warnings)
     ROS_WARN_STREAM("robot " << robot.name << ": " << warning);
   ROS_INFO_STREAM("robot " << robot.name << ": " << robot.links.size() << " links are known surfaces");
-  return std::make_unique<RobotLinks>(std::move(robot), deviation_m, frame);
+  return std::make_unique<RobotLinks>(std::move(robot), options.deviation_m, frame);
 }
 
 }  // namespace softbody

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "nodes/output_frame.h"
-#include "softbody_common/parameters.h"
 #include "softbody_tracking/robot/robot_surfaces.h"
+#include "softbody_tracking/ros/node_options.h"
 
 namespace softbody {
 
@@ -33,10 +33,9 @@ class RobotLinks {
   std::set<std::string> absent_;  ///< links that a warning has named
 };
 
-/// Reads `robot`, the name of the parameter with the URDF, and `robot_deviation_m`.
 /// @return nullptr: no robot.
-/// @throw std::invalid_argument if there is no such parameter, or the URDF cannot be read.
-std::unique_ptr<RobotLinks> makeRobotLinks(const ros::NodeHandle& handle, Parameters& parameters,
+/// @throw std::invalid_argument if there is no parameter with the URDF, or the URDF cannot be read.
+std::unique_ptr<RobotLinks> makeRobotLinks(const ros::NodeHandle& handle, const RobotOptions& options,
                                            const OutputFrame* frame);
 
 }  // namespace softbody

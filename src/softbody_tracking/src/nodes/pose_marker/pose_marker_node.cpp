@@ -9,6 +9,7 @@
 #include "softbody_common/ros/geometry_messages.h"
 #include "softbody_common/ros/ros_parameters.h"
 #include "softbody_common/topics.h"
+#include "softbody_tracking/ros/node_options.h"
 
 namespace softbody {
 namespace {
@@ -27,9 +28,7 @@ PoseMarkerNode::PoseMarkerNode(ros::NodeHandle handle, const ros::NodeHandle& pr
     : set_pose_(handle.serviceClient<softbody_msgs::SetPose>(kService)),
       marker_(handle, [this](const auto& feedback) { restartTracking(feedback); }),
       diagnostics_(handle, private_handle, "marker", [this](auto& status) { diagnose(status); }) {
-  Parameters parameters = readParameters(private_handle);
-  frame_ = frameName(parameters.text("frame", ""), "parameter frame");
-  warnUnknown(parameters);
+  frame_ = frameName(readOptions(private_handle, poseMarkerNodeParameters()).frame, "parameter frame");
   volume_topology_subscriber_ =
       handle.subscribe(topics::kVolumeTopology, 1, &PoseMarkerNode::onVolumeTopology, this);
   surface_topology_subscriber_ =

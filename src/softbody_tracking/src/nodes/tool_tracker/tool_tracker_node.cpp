@@ -12,12 +12,10 @@
 namespace softbody {
 namespace {
 
-ToolDescription loadTool(Parameters& parameters) {
-  const FileScope scope =
-      parameters.flag("allow_outside", false) ? FileScope::kAnywhere : FileScope::kOwnFolder;
-  ToolDescription tool = loadToolDescription(parameters.requiredText("tool"), scope);
+ToolDescription loadTool(const ToolTrackerOptions& options) {
+  ToolDescription tool = loadToolDescription(options.tool, fileScope(options.allow_outside));
   for (const std::string& warning : tool.warnings) ROS_WARN_STREAM(warning);
-  tool = inFrame(std::move(tool), parameters.text("blade_frame", ""));
+  tool = inFrame(std::move(tool), options.blade_frame);
   tool.frame = frameName(tool.frame, "the tool");
   return tool;
 }
@@ -33,21 +31,20 @@ std::string requireOther(const std::string& own_frame, const std::string& follow
 }  // namespace
 
 ToolTrackerNode::ToolTrackerNode(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle)
-    : ToolTrackerNode(handle, private_handle, readParameters(private_handle)) {}
+    : ToolTrackerNode(handle, private_handle, readOptions(private_handle, toolTrackerNodeParameters())) {}
 
 ToolTrackerNode::ToolTrackerNode(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle,
-                                 Parameters parameters)
-    : output_frame_(parameters),
-      tracker_(loadTool(parameters), readToolTrackerConfig(parameters)),
-      publisher_(handle, tracker_.tool().blade,
-                 output_frame_.claim(requireOther(ownFrame(parameters, "tool_frame", private_handle, "tool"),
-                                                  tracker_.tool().frame))),
+                                 const ToolTrackerOptions& options)
+    : output_frame_(options.output_frame),
+      tracker_(loadTool(options), options.tracker),
+      publisher_(
+          handle, tracker_.tool().blade,
+          output_frame_.claim(requireOther(ownFrame(options.tool_frame, "tool_frame", private_handle, "tool"),
+                                           tracker_.tool().frame))),
       stamps_(handle.resolveName(topics::kRgbRect)),
-      watchdog_(readSilenceTimeout(parameters)),
+      watchdog_(options.silence_timeout_s),
       images_(handle, [this](const RectifiedImages& images) { onFrame(images); }),
-      diagnostics_(handle, private_handle, "tool", [this](auto& status) { diagnose(status); }) {
-  warnUnknown(parameters);
-}
+      diagnostics_(handle, private_handle, "tool", [this](auto& status) { diagnose(status); }) {}
 
 void ToolTrackerNode::onFrame(const RectifiedImages& images) try {
   watchdog_.frameArrived();

@@ -9,9 +9,9 @@
 #include "nodes/output_frame.h"
 #include "nodes/rectified_image_subscriber.h"
 #include "nodes/tool_tracker/tool_publisher.h"
-#include "softbody_common/parameters.h"
 #include "softbody_common/ros/node_diagnostics.h"
 #include "softbody_common/ros/stamp_gate.h"
+#include "softbody_tracking/ros/node_options.h"
 #include "softbody_tracking/tool/tool_dropout_monitor.h"
 #include "softbody_tracking/tool/tool_tracker.h"
 
@@ -26,7 +26,7 @@ class ToolTrackerNode {
 
  private:
   ToolTrackerNode(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle,
-                  Parameters parameters);
+                  const ToolTrackerOptions& options);
 
   void onFrame(const RectifiedImages& images);
   void placeCamera(const std_msgs::Header& header, RgbdFrame* frame);

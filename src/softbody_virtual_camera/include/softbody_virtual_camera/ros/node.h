@@ -10,16 +10,14 @@
 #include <string>
 
 #include "softbody_common/ros/node_diagnostics.h"
-#include "softbody_virtual_camera/camera/camera_setup.h"
+#include "softbody_virtual_camera/ros/node_options.h"
 #include "softbody_virtual_camera/ros/render_ahead.h"
 
 namespace softbody::virtual_camera {
 
-/// The virtual camera as a node. Parameters: scene, camera_motion, texture, body, unit, sheet, jerks,
-/// camera_tf, youngs_modulus [Pa], poisson_ratio, density [kg/m^3], damping, seed, noise, width, height, rate
-/// [Hz], loop, publish_camera_tf. Publishes the camera's topics (camera/...), the truth (ground_truth/...)
-/// and optical frame -> ground_truth_softbody. Each frame is rendered just before its time comes, and gets
-/// its stamp when it is sent, as from a real camera.
+/// The virtual camera as a node. Parameters: nodeParameters(). Publishes the camera's topics (camera/...),
+/// the truth (ground_truth/...) and optical frame -> ground_truth_softbody. Each frame is rendered just
+/// before its time comes, and gets its stamp when it is sent, as from a real camera.
 class VirtualCameraNode {
  public:
   /// @param setup defaults of the parameters.
@@ -35,9 +33,7 @@ class VirtualCameraNode {
   void publish(const CaptureMessages& messages, const ros::Time& stamp);
   void diagnose(NodeDiagnostics::Status& status);
 
-  CameraSetup setup_;
-  bool loop_ = true, publish_camera_tf_ = true;
-  double hold_s_ = 2.0;
+  NodeOptions options_;
   std::optional<VirtualCamera> camera_;
   image_transport::Publisher color_, depth_, truth_labels_;
   ros::Publisher color_info_, depth_info_, truth_topology_, truth_state_, second_topology_, second_state_,
