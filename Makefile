@@ -11,7 +11,7 @@ $(shell mkdir -p $(HOME))
 endif
 
 .PHONY: build test shared-data recordings meshes cuts demo bench fuzz evaluate starts latency scans figures paper validation growth
-.PHONY: sanitize soak error-table api tidy format
+.PHONY: sanitize soak error-table parameter-tables api tidy format
 .PHONY: clean help dependencies
 
 build: dependencies  ## build everything; afterwards: . catkin_ws/devel/setup.bash
@@ -84,6 +84,9 @@ soak: build  ## run two live graphs for SOAK_MINUTES=60 with faults, cuts and ki
 
 error-table:  ## write the table of all messages in docs/troubleshooting.md from the sources
 	scripts/error_table
+
+parameter-tables: build  ## write the tables of parameters in docs/ from the nodes
+	. catkin_ws/devel/setup.sh && scripts/checks/parameter_tables
 
 api:  ## write pages of all public headers to api/html with doxygen; fails if it warns
 	scripts/install_dependencies scripts/optional_packages/api.txt
