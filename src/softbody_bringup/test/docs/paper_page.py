@@ -8,7 +8,7 @@ LINK = re.compile(r"\]\(([^)\s]+)\)")
 CODE = re.compile(r"`([^`]+)`")
 HEADING = re.compile(r"^#+ (.*)$", re.MULTILINE)
 PARAMETER = re.compile(r"[a-z][a-z0-9_]*$")
-NODE = re.compile(r"^Parameters of `(\w+)`:\n\n((?:\|.*\n)+)", re.MULTILINE)
+NODE = re.compile(r"^Parameters of `(\w+)`:\n\n(?:<!--.*-->\n\n)?((?:\|.*\n)+)", re.MULTILINE)
 
 
 def cells_of(line):
