@@ -23,7 +23,7 @@ const Scene& scan(const std::string& name, const std::string& object = "sponge",
   const std::string key = name + object + (jerks ? "j" : "");
   const auto found = made.find(key);
   if (found != made.end()) return found->second;
-  return made[key] = scanScene(name, shippedBody(object), 1, 1.0f, {shippedSheet(), jerks, true});
+  return made[key] = scanScene(name, shippedBody(object), 1, paintOf("rich"), {shippedSheet(), jerks, true});
 }
 
 std::size_t sheetOf(const Scene& scene) { return scene.actors.size() - 1 - scene.hands; }
