@@ -30,6 +30,15 @@ TEST(TopologyCheck, ACutBodyMayBeAnEdit) {
   EXPECT_TRUE(mayBeEditOf(whole, cut)) << "a vertex at the cut may move";
 }
 
+TEST(TopologyCheck, AnEditMayRoundAsMessagesDo) {
+  const TetTopology body = bodyOf(Points::Random(20, 3));
+  TetTopology rounded = body;
+  rounded.rest_vertices = body.rest_vertices.cast<float>().cast<double>();
+  ASSERT_NE(rounded.rest_vertices, body.rest_vertices);
+  EXPECT_TRUE(mayBeEditOf(body, rounded));
+  EXPECT_TRUE(mayBeEditOf(rounded, body));
+}
+
 TEST(TopologyCheck, AnotherBodyIsNoEdit) {
   const TetTopology body = bodyOf(Points::Random(20, 3));
   EXPECT_FALSE(mayBeEditOf(body, bodyOf(Points::Random(20, 3))));

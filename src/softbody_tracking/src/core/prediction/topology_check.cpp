@@ -47,7 +47,9 @@ bool mostStay(const Topology& before, const Topology& after) {
     const auto known = rows.find(parent);
     if (known == rows.end()) continue;
     ++shared;
-    if (before.rest_vertices.row(known->second) == after.rest_vertices.row(row)) ++same;
+    if (before.rest_vertices.row(known->second).template cast<float>() ==
+        after.rest_vertices.row(row).template cast<float>())
+      ++same;
   }
   return 2 * same >= shared;
 }

@@ -10,7 +10,8 @@ namespace softbody {
 void requireWhole(const TetTopology& volume, const MeshTopology& surface);
 
 /// Whether a later topology can be an edit of the same body: most vertices that have a parent in both are at
-/// the place at rest that they had. Without such vertices it can.
+/// the place at rest that they had, in single precision, as messages carry it: an edit rounds. Without such
+/// vertices it can.
 bool mayBeEditOf(const TetTopology& before, const TetTopology& after);
 bool mayBeEditOf(const MeshTopology& before, const MeshTopology& after);
 
