@@ -9,6 +9,8 @@ import softbody
 from scipy.spatial import cKDTree
 from sensor_msgs.msg import PointCloud2
 
+if "--help" in sys.argv:
+    sys.exit(__doc__)
 rospy.init_node("measured_distance", anonymous=True)
 body, state, clouds = softbody.Body(), None, collections.deque(maxlen=10)
 rospy.Subscriber("/softbody/points", PointCloud2, clouds.append)

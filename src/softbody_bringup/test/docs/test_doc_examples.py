@@ -53,6 +53,7 @@ class DocExamples(unittest.TestCase):
                 ("```bash\nroslaunch softbody_bringup track.launch object:=no_such_file.yaml\n```\n", "there is no such file"),
                 ("```bash\nmake no_such_target\n```\n", "no_such_target"),
                 ("<!-- example: live -->\n```bash\nrosrun softbody_bringup replay --no-such-option\n```\n", "names no option"),
+                ("<!-- example: live -->\n```bash\nrosrun rviz no_such_program\n```\n", "no_such_program"),
                 ("```bash\necho 'verdict: wrong'\n```\n", "the verdict is wrong"),
                 ("<!-- example: bad -->\n```bash\necho 'verdict: good'\n```\n", "the verdict is good"),
                 ("<!-- example: fails -->\n```bash\nrosrun softbody_bringup validate_bag my.bag\n```\n", "exit code 0"),
