@@ -11,7 +11,8 @@ from paper_figures.moments import moments, read_blades
 
 # Each scene: its words, and the part that is shown [s].
 SCENES = {"touch": ("A hand bends a sponge", 0.5, 5.0), "doll_touch": ("A hand bends a soft toy", 0.5, 5.0),
-          "cut": ("A knife with a marker cuts the sponge", 1.0, 7.0), "tear": ("The sponge is pulled until it tears", 0.5, 4.5)}
+          "cut": ("A knife with a marker cuts the sponge", 1.0, 7.0),
+          "tear": ("The sponge is pulled until it tears", 0.5, 4.5)}
 EVERY, RATE_HZ = 2, 30  # recorded frames
 PANEL_PX, TITLE_PX, QUALITY = 400, 22, 88
 CUT_FACE, BLADE = (0.85, 0.35, 0.3), (1.0, 0.6, 0.0)

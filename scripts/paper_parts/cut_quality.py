@@ -90,8 +90,8 @@ def main():
     times = cut_times(sys.argv[1])
     print(json.dumps({"before": of_triangles(before(uncut, cut)), "after": of_triangles(after(cut)),
                       "faces": of_triangles(faces(cut)), "holes": holes(cut),
-                      "volume_change": volume(cut) / volume(uncut) - 1, "cuts": len(times), "median_ms": float(np.median(times)),
-                      "worst_ms": max(times)}))
+                      "volume_change": volume(cut) / volume(uncut) - 1, "cuts": len(times),
+                      "median_ms": float(np.median(times)), "worst_ms": max(times)}))
 
 
 if __name__ == "__main__":

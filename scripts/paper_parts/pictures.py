@@ -2,7 +2,7 @@
 import shutil
 import subprocess
 
-from evaluation.runs import DEVEL, ROOT, ToolFailed, object_of, tool, tool_of
+from evaluation.runs import DEVEL, ROOT, ToolFailed, tool
 from markdown_lines import paragraph, table
 from paper_parts.methods import PAPER_FILE, TEAR
 from paper_parts.runs import BOARD, FOLDER, Run
@@ -12,9 +12,10 @@ PICTURES = FOLDER / "pictures"
 TRACKED = ("bend", "push", "pull", "doll_bend", "doll_push", "doll_pull", "doll_cut-partial", "cut-partial", "cut",
            BOARD, TEAR)
 AS_WRITTEN, WRITTEN = ("bend", "push", "doll_push"), "_as_written"
+FILMED, TEXTURE_OF_FILM = ("touch", "doll_touch", "cut", "tear"), "sponge"
 NEEDED = {**{scene: Run(scene) for scene in TRACKED},
-          **{scene + WRITTEN: Run(scene, PAPER_FILE.read_text()) for scene in AS_WRITTEN}}
-FILMED = ("touch", "doll_touch", "cut", "tear")  # scenes of the film, with the texture of a sponge
+          **{scene + WRITTEN: Run(scene, PAPER_FILE.read_text()) for scene in AS_WRITTEN},
+          **{f"film_{scene}": Run(scene, texture=TEXTURE_OF_FILM) for scene in FILMED}}
 RUNS = list(NEEDED.values())
 SHOWN = {1: "the bodies before the camera; below, what was tracked, with the low-resolution model",
          2: "overview: the nodes of the graph, and what flows between them",
@@ -40,18 +41,9 @@ def lay_out(reports):
             (PICTURES / f"{name}.bag").symlink_to(reports[run]["recording"])
 
 
-def track_for_film(scene):
-    """Records one scene of a sponge, and tracks it."""
-    recording = PICTURES / f"film_{scene}.bag"
-    tool("virtual_camera", "--scene", scene, "--texture", "sponge", "--output", recording)
-    tool("replay", recording, "--object", object_of(scene), *tool_of(scene), "--output", PICTURES / f"film_{scene}_result.bag")
-
-
 def draw_figures(reports):
     """Writes figure_1.webp to figure_11.webp, the sheet figures.webp and film.webp; the lines of their section."""
     lay_out(reports)
-    for scene in FILMED:
-        track_for_film(scene)
     tool("draw_cut", PICTURES / "cut-partial_result.bag", PICTURES / "doll_cut-partial_result.bag",
          "--output", PICTURES / "figure_10.png")
     tool("draw_cut", PICTURES / f"{BOARD}_result.bag", "--recording", PICTURES / f"{BOARD}.bag",

@@ -1,4 +1,5 @@
-"""Records and tracks the scenes of `make paper`. Every scene is recorded once, and equal runs are made once."""
+"""Records and tracks the scenes of `make paper`. Every scene is recorded once with each texture, and equal runs are made
+once."""
 import concurrent.futures
 import json
 import shutil
@@ -22,7 +23,13 @@ class Run(typing.NamedTuple):
 
     scene: str
     text: str = ""
-    model: str = ""  # empty: the shipped object
+    model: str = ""    # empty: the shipped object
+    texture: str = ""  # of the recorded body; empty: that of the virtual camera
+
+    @property
+    def recorded(self):
+        """Which recording it needs: runs with the same one share it."""
+        return self.scene, self.texture
 
 
 def perform(runs, timed, kept, jobs):
@@ -34,17 +41,17 @@ def perform(runs, timed, kept, jobs):
     if any(run.model for run in runs):
         tool("prepare_model", ROOT / "config/doll.obj", "--cage-vertices", COARSE_VERTICES, "--output", FOLDER / COARSE,
              package="softbody_sim")
-    recordings = recorded(dict.fromkeys(run.scene for run in runs), jobs)
+    recordings = recorded(dict.fromkeys(run.recorded for run in runs), jobs)
     say, reports = progress(len(runs)), {}
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
-        pending = {pool.submit(measure, number, run, recordings[run.scene], run in kept): run
+        pending = {pool.submit(measure, number, run, recordings[run.recorded], run in kept): run
                    for number, run in enumerate(runs) if run not in timed}
         for run, report in as_they_end(pool, pending):
             reports[run] = report
             say(run.scene)
     for number, run in enumerate(runs):
         if run in timed:
-            reports[run] = measure(number, run, recordings[run.scene], run in kept)
+            reports[run] = measure(number, run, recordings[run.recorded], run in kept)
             say(f"{run.scene}, alone")
     return reports
 
@@ -75,20 +82,20 @@ def progress(count):
     return say
 
 
-def recorded(scenes, jobs):
-    """{scene: recording}"""
-    say = progress(len(scenes))
+def recorded(needed, jobs):
+    """{(scene, texture): recording}"""
+    say = progress(len(needed))
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
-        pending, found = {pool.submit(record, scene): scene for scene in scenes}, {}
-        for scene, found[scene] in as_they_end(pool, pending):
-            say(f"{scene} recorded")
+        pending, found = {pool.submit(record, *which): which for which in needed}, {}
+        for which, found[which] in as_they_end(pool, pending):
+            say(f"{' '.join(filter(None, which))} recorded")
     return found
 
 
-def record(scene):
-    path = FOLDER / f"{scene}.bag"
+def record(scene, texture):
+    path = FOLDER / f"{'_'.join(filter(None, (scene, texture)))}.bag"
     played = ("cut", *BOARD_TOOL) if scene == BOARD else (scene,)
-    tool("virtual_camera", "--scene", *played, "--output", path)
+    tool("virtual_camera", "--scene", *played, *(("--texture", texture) if texture else ()), "--output", path)
     return path
 
 

@@ -62,11 +62,12 @@ def features(reports):
         rows.append([words, *(f"{error} ({found})" for error, found in cells)])
     return section("Number of features", "Mean error of all vertices [mm] for limits of `max_features`. In brackets: "
                                          "features *matched* in a frame, without outliers, *of* the features *bound* "
-                                         "to the body so far, those on hidden sides too (medians over the frames). The "
-                                         "limit is for the features in view, so N_p = 1000 is reached when 1000 are "
-                                         "bound. Our tracker itself stops at four features in view for each visible "
-                                         "vertex of the volume, or at 300.",
-                   ["features", *SCENES], rows)
+                                         "to the body (medians over the frames). Bound features may be on hidden "
+                                         "sides. The limit is for those in view: so our tracker may bind more. It "
+                                         "itself stops at four in view for each visible vertex of the volume, or at "
+                                         "300. Of the features between frames, the limit of 1000 is the paper's N_p: "
+                                         "so many are bound, and fewer are matched.",
+                   ["features: error (matched of bound)", *SCENES], rows)
 
 
 def sizes(reports):
