@@ -1,10 +1,10 @@
 #include "shells/shell_list.h"
 
-#include <boost/pending/disjoint_sets.hpp>
 #include <cmath>
-#include <map>
+#include <utility>
 
 #include "cutting/split/manifold_mesh.h"
+#include "shells/connected_groups.h"
 
 namespace softbody {
 namespace {
@@ -50,17 +50,12 @@ bool Shell::isSheet() const { return 2.0 * std::abs(volume) <= kThinnest * box.d
 std::vector<Shell> shellsOf(const TriangleMesh& mesh) {
   const TriangleList triangles = listOf(mesh.triangles);
   const std::vector<int> mates = matesAcrossBody(triangles, mesh.vertices);
-  boost::disjoint_sets_with_storage<> sets(triangles.size());
-  for (std::size_t t = 0; t < triangles.size(); ++t) sets.make_set(t);
+  std::vector<std::pair<std::size_t, std::size_t>> neighbours;
   for (std::size_t h = 0; h < mates.size(); ++h)
-    if (mates[h] >= 0) sets.union_set(h / 3, static_cast<std::size_t>(mates[h]) / 3);
-  std::map<std::size_t, std::size_t> numbers;
+    if (mates[h] >= 0) neighbours.emplace_back(h / 3, static_cast<std::size_t>(mates[h]) / 3);
   std::vector<Shell> shells;
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    const std::size_t number = numbers.try_emplace(sets.find_set(t), shells.size()).first->second;
-    if (number == shells.size()) shells.emplace_back();
-    shells[number].triangles.push_back(static_cast<Eigen::Index>(t));
-  }
+  for (const std::vector<std::size_t>& group : connectedGroups(triangles.size(), neighbours))
+    shells.emplace_back().triangles.assign(group.begin(), group.end());
   for (Shell& shell : shells) measure(mesh, &shell);
   return shells;
 }

@@ -1,11 +1,10 @@
 #include "shells/shell_nesting.h"
 
 #include <algorithm>
-#include <boost/pending/disjoint_sets.hpp>
 #include <cmath>
-#include <map>
 #include <set>
 
+#include "shells/connected_groups.h"
 #include "shells/shell_union.h"
 #include "shells/surface_transfer.h"
 
@@ -32,18 +31,6 @@ Pairs crossings(const std::vector<Shell>& shells, const std::vector<TriangleMesh
     for (std::size_t k = 0; k < i; ++k)
       if (shells[i].box.intersects(shells[k].box)) return crossingPairs(meshes);
   return {};
-}
-
-/// The members of each set of connected numbers.
-std::vector<std::vector<std::size_t>> groupsOf(std::size_t count, const Pairs& pairs) {
-  boost::disjoint_sets_with_storage<> sets(count);
-  for (std::size_t i = 0; i < count; ++i) sets.make_set(i);
-  for (const auto& [a, b] : pairs) sets.union_set(a, b);
-  std::map<std::size_t, std::vector<std::size_t>> groups;
-  for (std::size_t i = 0; i < count; ++i) groups[sets.find_set(i)].push_back(i);
-  std::vector<std::vector<std::size_t>> result;
-  for (auto& [root, members] : groups) result.push_back(std::move(members));
-  return result;
 }
 
 /// Unites the smallest two again and again, so that a large mesh is not worked on for each small one. What
@@ -110,7 +97,7 @@ int uniteShells(WeldedSurface* surface) {
   const std::vector<TriangleMesh> meshes = meshesOf(surface->mesh, shells);
   std::vector<TriangleMesh> results;
   int count = 0;
-  for (const std::vector<std::size_t>& group : groupsOf(shells.size(), crossings(shells, meshes))) {
+  for (const std::vector<std::size_t>& group : connectedGroups(shells.size(), crossings(shells, meshes))) {
     std::vector<TriangleMesh> parts;
     for (const std::size_t s : group) parts.push_back(meshes[s]);
     std::vector<TriangleMesh> whole = united(std::move(parts));
@@ -128,7 +115,7 @@ std::vector<Body> bodiesOf(const TriangleMesh& mesh) {
   for (std::size_t s = 0; s < shells.size(); ++s)
     for (const std::size_t outer : containers[s]) pairs.emplace_back(s, outer);
   std::vector<Body> bodies;
-  for (const std::vector<std::size_t>& group : groupsOf(shells.size(), pairs)) {
+  for (const std::vector<std::size_t>& group : connectedGroups(shells.size(), pairs)) {
     Body body;
     for (const std::size_t s : group) {
       body.triangles.insert(body.triangles.end(), shells[s].triangles.begin(), shells[s].triangles.end());
