@@ -217,6 +217,25 @@ class LaunchArguments(unittest.TestCase):
         self.assertTrue(rest and all(topic.startswith("/right/") for topic in rest), rest)
         self.assertEqual([panel["Namespace"] for panel in several["Panels"] if "Namespace" in panel], ["/left"])
 
+    def test_images_show_each_of_several_bodies_as_they_show_one(self):
+        def read():
+            with open(f"{RVIZ}/track.rviz", encoding="utf-8") as file:
+                return yaml.safe_load(file)
+
+        def visibility(configuration):
+            return next(display["Visibility"] for display in configuration["Visualization Manager"]["Displays"]
+                        if display["Class"] == "rviz/Camera")
+
+        bodies_rviz = program(os.path.join(rospkg.RosPack().get_path("softbody_bringup"), "src/bodies_rviz/bodies_rviz"))
+        one, several = read(), bodies_rviz.configured(read(), ["left", "right"])
+        groups = {display["Name"]: [part["Name"] for part in display["Displays"]]
+                  for display in several["Visualization Manager"]["Displays"] if display["Class"] == "rviz/Group"}
+        self.assertEqual(set(groups), {"left", "right"})
+        for name, parts in groups.items():
+            self.assertIn("Edges on the image", parts)
+            self.assertEqual(visibility(several)[name],
+                             {"Value": True, **{key: on for key, on in visibility(one).items() if key in parts}})
+
     def test_rviz_is_in_the_namespace_of_the_graph(self):
         nodes = roslaunch(self.directory.name, "--nodes", "softbody_bringup", "track.launch", *GRAPHS["track.launch"],
                           "rviz:=true", "namespace:=/left").split()
