@@ -159,6 +159,14 @@ class Panel : public testing::TestWithParam<const char*> {
     QMetaObject::invokeMethod(field, "returnPressed");
   }
 
+  QString savedNamespace() {
+    rviz::Config config;
+    panel_.save(config);
+    QString saved = "nothing is saved";
+    config.mapGetString("Namespace", &saved);
+    return saved;
+  }
+
   ros::NodeHandle node_{GetParam()};
   std::map<std::string, double> parameters_{{"target_stiffness", 10.0}, {"youngs_modulus_pa", 2e4}};
   std::vector<std::string> called_;  // services
@@ -226,6 +234,30 @@ TEST_P(Panel, ARefusedStiffnessGoesBack) {
   EXPECT_TRUE(shows("target_stiffness", "10"));
 }
 
+TEST_P(Panel, AChangedStiffnessLeavesWhatTheUserTypesOrDrags) {
+  publishParameters();
+  ASSERT_TRUE(waitFor([&] { return shows("target_stiffness", "10") && shows("youngs_modulus_pa", "20"); }));
+  auto* field = panel_.findChild<QLineEdit*>("target_stiffness");
+  field->insert("5");
+  parameters_ = {{"target_stiffness", 20.0}, {"youngs_modulus_pa", 3e4}};
+  publishParameters();
+  ASSERT_TRUE(waitFor([&] { return shows("youngs_modulus_pa", "30"); }));
+  EXPECT_TRUE(shows("target_stiffness", "105"));
+  Q_EMIT field->editingFinished();  // left without Enter
+  EXPECT_TRUE(shows("target_stiffness", "20"));
+
+  auto* slider = panel_.findChild<QSlider*>("youngs_modulus_pa");
+  slider->setSliderDown(true);
+  slider->setSliderPosition(slider->maximum());
+  parameters_ = {{"target_stiffness", 40.0}, {"youngs_modulus_pa", 12345.0}};
+  publishParameters();
+  ASSERT_TRUE(waitFor([&] { return shows("target_stiffness", "40"); }));
+  EXPECT_EQ(slider->sliderPosition(), slider->maximum());
+  slider->setSliderPosition(slider->value());  // back to where it was
+  slider->setSliderDown(false);
+  EXPECT_TRUE(shows("youngs_modulus_pa", "12.35"));
+}
+
 TEST_P(Panel, TheRecordButtonWritesABagThatIsWhole) {
   const QTemporaryDir folder;
   QDir::setCurrent(folder.path());
@@ -246,15 +278,13 @@ TEST_P(Panel, TheNamespaceIsSavedAndOneThatIsNoneChangesNothing) {
   line->setText("two words");
   Q_EMIT line->editingFinished();
   EXPECT_TRUE(says("This is no namespace"));
+  EXPECT_EQ(line->text(), GetParam());
+  EXPECT_EQ(savedNamespace(), GetParam());
   topology_.publish(body());
   expectAnswer("Undo", "Done: undo");
   line->setText("/elsewhere");
   Q_EMIT line->editingFinished();
-  rviz::Config config;
-  panel_.save(config);
-  QString saved;
-  EXPECT_TRUE(config.mapGetString("Namespace", &saved));
-  EXPECT_EQ(saved, "/elsewhere");
+  EXPECT_EQ(savedNamespace(), "/elsewhere");
   expectAnswer("Find again", "/elsewhere/feature_tracker/find_again does not answer");
   EXPECT_FALSE(button("Cut")->isEnabled());  // its body is not known
 }

@@ -69,8 +69,8 @@ void SoftBodyDisplay::addColoringProperties() {
   image_ = new rviz::StringProperty(
       "Texture Image", "",
       "File with the image of the texture. Empty: the image that the object's OBJ names, or the colours of "
-      "the "
-      "mesh's vertices; the node 'surface' has the object YAML as a parameter. Squares if there is none.",
+      "the mesh's vertices; the node 'surface' has the object YAML as a parameter. Squares if there is "
+      "neither an image nor a colour.",
       this, SLOT(updateColors()), this);
   scale_ = std::make_unique<ValueScale>(this, SLOT(updateColors()), this, true);
 }
@@ -213,7 +213,8 @@ void SoftBodyDisplay::loadTexture() {
   if (!texture_.get() && own_colors_.empty() && !model_->layout().texture.empty()) texture_.makeChequers();
 }
 
-/// The image or else the colours of the vertices. @return what it found. @throw std::invalid_argument
+/// The image or else the colours of the vertices. @return what it found.
+/// @throw std::invalid_argument if something is missing; the colours that were found are kept.
 std::string SoftBodyDisplay::loadOwnLook() {
   const bool has_coordinates = !model_->layout().texture.empty();
   const std::string yaml = objectYaml();
@@ -225,6 +226,8 @@ std::string SoftBodyDisplay::loadOwnLook() {
   }
   if (!yaml.empty())
     own_colors_ = colorsOfVertices(model_->topology(), readObjectColors(yaml, objectScope()));
+  if (!has_coordinates && !image_->getStdString().empty())
+    throw std::invalid_argument("Texture Image is not used: the mesh has no texture coordinates");
   if (!own_colors_.empty()) return "colours of the vertices in the mesh file";
   if (has_coordinates) return "squares: the object has no image, and its vertices have no colours";
   throw std::invalid_argument("the mesh has no texture coordinates, and its vertices have no colours");

@@ -23,8 +23,8 @@ class ColorBar {
   ColorBar(const ColorBar&) = delete;
   ColorBar& operator=(const ColorBar&) = delete;
 
-  /// @param title what the colours show, with the unit of the numbers. @param largest the number at the end,
-  /// > 0.
+  /// @param title what the colours show, with the unit of the numbers.
+  /// @param largest the number at the end, > 0.
   void show(const QString& title, double largest, ColorMap map);
   void hide();
 

@@ -70,7 +70,8 @@ void SoftbodyPanel::addNamespace() {
   auto* row = new QHBoxLayout;
   static_cast<QVBoxLayout*>(layout())->addLayout(row);
   row->addWidget(new QLabel("Namespace"));
-  namespace_ = new QLineEdit(kNamespace);
+  accepted_namespace_ = kNamespace;
+  namespace_ = new QLineEdit(accepted_namespace_);
   namespace_->setObjectName("namespace");
   namespace_->setToolTip("Namespace of the graph; empty: that of rviz");
   row->addWidget(namespace_);
@@ -106,18 +107,19 @@ void SoftbodyPanel::load(const rviz::Config& config) {
   Panel::load(config);
   QString name = kNamespace;
   config.mapGetString("Namespace", &name);
-  namespace_->setText(name);
   setNamespace(name);
 }
 
 void SoftbodyPanel::save(rviz::Config config) const {
   Panel::save(config);
-  config.mapSetValue("Namespace", namespace_->text());
+  config.mapSetValue("Namespace", accepted_namespace_);
 }
 
-/// A name that cannot be one changes nothing.
+/// A name that cannot be one changes nothing: the last good one is shown again.
 void SoftbodyPanel::setNamespace(const QString& name) try {
   const ros::NodeHandle node(name.toStdString());
+  accepted_namespace_ = name;
+  namespace_->setText(name);
   if (node.getNamespace() == node_.getNamespace() && !subscribers_.empty()) return;
   node_ = node;
   cut_->setNode(node);
@@ -129,6 +131,7 @@ void SoftbodyPanel::setNamespace(const QString& name) try {
   setBanner(state_, "No status yet", "#666666");
   subscribe();
 } catch (const ros::InvalidNameException& error) {
+  namespace_->setText(accepted_namespace_);
   answer_->setText(QString("This is no namespace: ") + error.what());
 }
 

@@ -54,6 +54,7 @@ class SoftbodyPanel : public rviz::Panel {
   CutControls* cut_;
   RecordButton* record_;
   QLineEdit* namespace_;
+  QString accepted_namespace_;  ///< as written, perhaps empty
   FrameTimes times_;
   softbody_msgs::TetTopology::ConstPtr topology_;  ///< of the cut's controls
   ros::SteadyTime last_status_;

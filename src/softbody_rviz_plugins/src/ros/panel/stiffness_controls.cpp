@@ -70,16 +70,25 @@ void StiffnessControls::addRow(const StiffnessRow& row, const char* title, const
   grid->addWidget(new QLabel(unit), line, 3);
   connect(row.slider, &QSlider::sliderMoved, [row](int step) { row.field->setText(textOf(numberAt(step))); });
   connect(row.slider, &QSlider::valueChanged, [this, row](int step) { set(row, numberAt(step)); });
-  connect(row.field, &QLineEdit::returnPressed, [this, row] {
-    bool is_number = false;
-    const double shown = row.field->text().toDouble(&is_number);
-    if (is_number) {
-      set(row, shown);
-    } else {
-      showValue(row);
-    }
+  connect(row.slider, &QSlider::sliderReleased, [this, row] {
+    if (row.slider->sliderPosition() == row.slider->value()) showValue(row);  // dragged back
+  });
+  connect(row.field, &QLineEdit::returnPressed, [this, row] { enter(row); });
+  connect(row.field, &QLineEdit::editingFinished, [this, row] {
+    if (row.field->isModified()) showValue(row);  // left without Enter
   });
   rows_.push_back(row);
+}
+
+void StiffnessControls::enter(const StiffnessRow& row) {
+  bool is_number = false;
+  const double shown = row.field->text().toDouble(&is_number);
+  row.field->setModified(false);
+  if (is_number) {
+    set(row, shown);
+  } else {
+    showValue(row);
+  }
 }
 
 void StiffnessControls::setNode(const ros::NodeHandle& node) {
@@ -93,7 +102,9 @@ void StiffnessControls::show(const dynamic_reconfigure::Config& config) {
 }
 
 void StiffnessControls::restore() {
-  for (const StiffnessRow& row : rows_) showValue(row);
+  for (const StiffnessRow& row : rows_) {
+    if (!row.slider->isSliderDown() && !row.field->isModified()) showValue(row);
+  }
 }
 
 void StiffnessControls::showValue(const StiffnessRow& row) {

@@ -34,13 +34,14 @@ class StiffnessControls : public QGroupBox {
   void setNode(const ros::NodeHandle& node);
   /// The values of the graph.
   void show(const dynamic_reconfigure::Config& config);
-  /// Shows them again: the graph may have refused a change.
+  /// Shows them again: the graph may have refused a change. A row stays while the user types or drags in it.
   void restore();
   void setBusy(bool busy);
 
  private:
   void addRow(const StiffnessRow& row, const char* title, const char* unit, const char* tip);
   void showValue(const StiffnessRow& row);
+  void enter(const StiffnessRow& row);
   void set(const StiffnessRow& row, double shown);
 
   ros::NodeHandle node_;

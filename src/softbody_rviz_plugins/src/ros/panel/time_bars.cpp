@@ -26,6 +26,10 @@ void TimeBars::show(const std::vector<StageBar>& bars, std::optional<double> bud
 
 void TimeBars::paintEvent(QPaintEvent* /*event*/) {
   QPainter painter(this);
+  if (bars_.empty()) {
+    painter.drawText(rect(), Qt::AlignCenter, "No times yet");
+    return;
+  }
   const double budget = budget_.value_or(1000.0 / 30.0);
   double longest = budget;
   for (const StageBar& bar : bars_) longest = std::max(longest, bar.largest);
