@@ -24,10 +24,10 @@ CUT, BOARD = 10, 11  # figures of draw_cut
 # The sheet: what is side by side, its width, the height of a title in widths, and its size.
 ROWS = ((1, 3), (2,), (4, 6), (5, 7, 8), (9, 10), (11,))
 SHEET_INCHES, TITLE, SHEET_BYTES = 14, 0.022, 500_000
-TITLES = {1: "bodies, and what was tracked", 2: "data flow", 3: "the models of a body", 4: "features and their vectors",
-          5: "features on a model", 6: "features alone, and with the volume",
-          7: "from vectors, and simulated", 8: "mean value coordinates", 9: "models over the image",
-          10: "cuts of the models", 11: "a marked board cuts the sponge"}
+TITLES = {1: "bodies, and what was tracked", 2: "data flow", 3: "models of three resolutions", 4: "features and their vectors",
+          5: "features on the cage", 6: "shape from features alone, and with the volume",
+          7: "shape from vectors, simulated shape", 8: "fine mesh in its cage", 9: "models and features over the image",
+          10: "cuts, and a tear", 11: "a marked board cuts the sponge"}
 
 
 def read_scenes(folder):

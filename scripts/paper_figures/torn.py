@@ -1,7 +1,7 @@
 """Figure 10 of Kang et al. 2022, drawn by `draw_cut`, and below it a sponge that tears."""
 from matplotlib import pyplot
 
-from paper_figures.drawing import ASPECT, BLUE, DPI, GREEN, RED, frame, show_body, show_pale_image
+from paper_figures.drawing import ASPECT, BLUE, DPI, GREEN, RED, blend_body, frame, show_pale_image
 
 PIECES = (GREEN, BLUE)
 WORDS = ("(e) pulled", "just torn", "apart")
@@ -31,5 +31,5 @@ def figure_10(picture, moments):
         pieces = moment.state.triangle_pieces
         colors = [RED if is_cut else PIECES[piece % len(PIECES)]
                   for is_cut, piece in zip(moment.state.cut_triangles, pieces)]
-        show_body(axis, moment.camera, *moment.surface, colors, 0.5)
+        blend_body(axis, moment.camera, *moment.surface, colors, 0.5)
     return figure
