@@ -12,7 +12,7 @@ using Texture = std::function<Eigen::Vector3f(const Eigen::Vector3d& place)>;
 /// Colourful cells (Worley 1996) of 18, 8 and 4 mm with dark pores: many corners, all different.
 Texture cellTexture(std::uint64_t seed);
 
-/// Yellow foam with round dark pores of 2 to 6 mm, as a sponge for the kitchen has them.
+/// Yellow foam with round dark pores, 0.8 to 6 mm across, as a sponge for the kitchen has them.
 Texture spongeTexture(std::uint64_t seed);
 
 /// Pale wood: weak streaks along x, few corners.

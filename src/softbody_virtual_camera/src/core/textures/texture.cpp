@@ -70,9 +70,8 @@ double valueNoise(const Eigen::Vector3d& p, std::uint64_t seed) {
   return sum;
 }
 
-/// How deep a point is in a round pore: 0 outside, 1 in its middle. @param p in units of the spacing of
-/// pores.
-/// @param largest radius.
+/// How deep a point is in a round pore: 0 outside, 1 in its middle.
+/// @param p in units of the spacing of pores. @param largest radius, in the same units.
 double poreDepth(const Eigen::Vector3d& p, double largest, std::uint64_t seed) {
   constexpr double kSoftRim = 0.06;
   const Nearest pore = nearestPoint(p, seed);
