@@ -23,6 +23,8 @@ CAMERAS = [f"cameras/{name}.launch" for name in ("realsense", "azure_kinect", "o
 GRAPHS = {"track.launch": ["object:=/o.yaml"], "rig.launch": ["object:=/o.yaml"], "demo.launch": [],
           "playback.launch": ["object:=/o.yaml", "bag:=/b.bag"]}
 
+WITHOUT_PARAMETERS = {"rviz", "play", "reset_clock", "camera_optical_frame"}
+
 
 def program(path):
     """A Python program as a module."""
@@ -111,6 +113,21 @@ class LaunchArguments(unittest.TestCase):
         listed = roslaunch(self.directory.name, "--ros-args", f"{LAUNCH}/{launch}")
         self.assertNotIn("undocumented", listed, launch)
         return set(re.findall(r"^\s+(\w+)(?: \(default .*\))?: ", listed, re.MULTILINE))
+
+    def test_no_parameter_of_an_earlier_launch_stays(self):
+        """roslaunch removes what the master still knows from a launch before: all of a node that reads parameters."""
+        files = {**GRAPHS, "scan.launch": ["output:=/o"], "bodies.launch": ["objects:=/a.yaml /b.yaml"],
+                 "faults.launch": [f"faults:={self.directory.name}/faults.yaml"]}
+        with open(f"{self.directory.name}/faults.yaml", "w", encoding="ascii") as file:
+            file.write("drop: 0.1\n")
+        helpers = [f"{name}:=true" for name in ("collision_object", "recorder", "model_server", "pose_marker", "aggregator", "rviz",
+                                                "nodelets", "publish_camera_tf")]
+        for launch, arguments in files.items():
+            loaded = roslaunch_config.load_config_default([(f"{LAUNCH}/{launch}", [*arguments, *helpers, "tool:=/t.yaml"])], None)
+            nodes = {node.namespace + node.name for node in loaded.nodes}
+            kept = {name for name in nodes if name + "/" not in loaded.clear_params}
+            self.assertLessEqual({name.rsplit("/", 1)[1] for name in kept}, WITHOUT_PARAMETERS, launch)
+            self.assertLess(kept, nodes, launch)
 
     def test_every_launch_file_has_the_arguments_of_the_graph(self):
         """A recording has no driver whose nodelet manager could be joined."""
