@@ -68,8 +68,12 @@ class Collision(unittest.TestCase):
     def setUpClass(cls):
         cls.clock_publisher = rospy.Publisher("/clock", Clock, queue_size=1)
         cls.received = []
-        cls.subscriber = rospy.Subscriber("/collision_object", CollisionObject, cls.received.append, queue_size=1000)
+        cls.subscribe()
         cls.body = Body("/left/softbody")
+
+    @classmethod
+    def subscribe(cls):
+        cls.subscriber = rospy.Subscriber("/collision_object", CollisionObject, cls.received.append, queue_size=1000)
 
     def setUp(self):
         self.received.clear()
@@ -125,6 +129,18 @@ class Collision(unittest.TestCase):
         program.send_signal(signal.SIGINT)
         self.tick_until(lambda: self.received[-1].operation == CollisionObject.REMOVE, "that the object is removed")
         self.assertEqual((self.received[-1].id, self.received[-1].meshes), ("left_softbody", []))
+
+    def test_a_new_subscriber_gets_the_object_of_a_body_that_stands_still(self):
+        self.start()
+        self.tick_until(lambda: self.received, "an object")
+        self.subscriber.unregister()
+        self.received.clear()
+        self.subscribe()
+        end = time.monotonic() + PATIENCE_S
+        while not self.received:  # no state comes, and no time passes
+            self.assertLess(time.monotonic(), end, "the object again")
+            time.sleep(0.01)
+        self.expect_mesh(self.received[0], 1.0)
 
     def test_the_coarse_mesh_is_that_of_the_tets(self):
         self.start("_coarse:=true", "_id:=sponge")

@@ -29,13 +29,14 @@ def shape_of(state, coarse):
 
 
 class CollisionObjectPublisher:
-    """Replaces the object of MoveIt's scene by the newest state, and removes it at the end."""
+    """Replaces the object of MoveIt's scene by the newest state, and removes it at the end. A new subscriber gets the object at
+    once, also if the body stands still: the topic is latched."""
 
     def __init__(self, kind, body, name, coarse):
         """@param kind: the class moveit_msgs.msg.CollisionObject. @param name: id of the object in the scene."""
         self.kind, self.body, self.name, self.coarse = kind, body, name, coarse
         self.sent = None  # the last State
-        self.publisher = rospy.Publisher(TOPIC, kind, queue_size=1)
+        self.publisher = rospy.Publisher(TOPIC, kind, queue_size=1, latch=True)
         rospy.on_shutdown(self.remove)
 
     def publish(self):
