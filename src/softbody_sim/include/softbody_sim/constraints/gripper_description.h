@@ -14,7 +14,8 @@ namespace softbody {
 
 /// What describes a gripper, as its YAML and the parameters say it.
 struct GripperWords {
-  std::string frame, fingers;  ///< frame: empty: there is none; fingers: frames, separated by spaces
+  std::string frame;    ///< Empty if there is no gripper.
+  std::string fingers;  ///< frames, separated by spaces
   /// Space between the fingers: lowest, then highest x, y, z in the gripper's frame [m].
   Eigen::Matrix<double, 6, 1> box =
       (Eigen::Matrix<double, 6, 1>() << -0.02, -0.05, -0.03, 0.02, 0.05, 0.03).finished();

@@ -15,7 +15,7 @@ namespace softbody {
 /// vertices when it takes hold. Surfaces are in the volume whose vertices are given.
 class PinnedVertices {
  public:
-  /// @throw std::invalid_argument if a box in rest space holds nothing: with what is nearest to it.
+  /// @throw std::invalid_argument if a box in rest space holds nothing. The error names what is nearest.
   PinnedVertices(PinRegion region, const BodySurface& surface, const Points& rest_vertices);
 
   const PinRegion& region() const { return region_; }
