@@ -1,4 +1,4 @@
-"""Records and tracks the scenes of `make paper`. A scene is recorded once with each texture; equal runs are made once."""
+"""Records and tracks the scenes of `make paper`: a scene once with each texture, equal runs once."""
 import concurrent.futures
 import json
 import shutil
