@@ -8,12 +8,13 @@
 #include <vector>
 
 #include "bench/bent_bodies.h"
+#include "bench/peers/held_body.h"
 #include "bench/peers/mass_springs.h"
 #include "fixtures/test_meshes.h"
 #include "softbody_common/tet_geometry.h"
 #include "softbody_sim/dynamics/simulator.h"
 
-/// Bends sponge and doll with several simulators under the same noisy targets, on the upper side alone.
+/// Hands bend sponge and doll; several simulators follow the same noisy targets, on the upper side alone.
 /// Prints for each the mean error of all vertices [mm] and the median time of a step [ms], as JSON.
 namespace {
 
@@ -21,7 +22,7 @@ using namespace softbody;
 using namespace softbody::bench;
 
 constexpr int kFrames = 60, kIterations = 20;
-constexpr double kStep_s = 1.0 / 30.0, kCurvature = 7.0, kNoise_m = 5e-4;
+constexpr double kStep_s = 1.0 / 30.0, kCurvature = 5.0, kNoise_m = 5e-4;
 
 /// Steps under targets, and gives the vertices.
 using Method = std::function<Points(const std::vector<Target>& targets, int frame)>;
@@ -50,25 +51,19 @@ std::vector<MaterialPoint> upperSide(const TetTopology& body) {
   return places;
 }
 
-/// The true shape in a frame.
-Points truth(const TetTopology& body, int frame) {
-  const double share = static_cast<double>(frame + 1) / kFrames;
-  return bent(body.rest_vertices, kCurvature * share * share * (3.0 - 2.0 * share));
-}
-
-std::vector<std::vector<Target>> targetsOf(const TetTopology& body) {
+std::vector<std::vector<Target>> targetsOf(const TetTopology& body, const std::vector<Points>& truth) {
   std::mt19937 random(1);
   std::normal_distribution<double> noise(0.0, kNoise_m);
   const std::vector<MaterialPoint> places = upperSide(body);
-  std::vector<std::vector<Target>> frames(kFrames);
-  for (int frame = 0; frame < kFrames; ++frame) {
-    const Points x = truth(body, frame);
+  std::vector<std::vector<Target>> frames;
+  for (const Points& x : truth) {
+    std::vector<Target>& targets = frames.emplace_back();
     for (const MaterialPoint& place : places) {
       Target target;
       target.place = place;
       target.position = positionOf(place, x, body.tets);
       for (int k = 0; k < 3; ++k) target.position[k] += noise(random);
-      frames[static_cast<std::size_t>(frame)].push_back(target);
+      targets.push_back(target);
     }
   }
   return frames;
@@ -87,27 +82,28 @@ Method simulated(const TetTopology& body, const Material& material, const Simula
   };
 }
 
-Method massSprings(const TetTopology& body, const std::vector<Target>& first) {
+Method massSprings(const TetTopology& body, const Points& start, const std::vector<Target>& first) {
   const Material material;
   const double stiffness = SimulatorConfig().target_stiffness * material.youngs_modulus_pa *
                            meanEdgeLength(body.rest_vertices, body.tets);
   const auto springs = std::make_shared<MassSprings>(body, material, first, stiffness, kStep_s);
-  springs->place(truth(body, 0));
+  springs->place(start);
   return [springs](const std::vector<Target>& targets, int) {
     springs->step(targets, kIterations);
     return springs->vertices();
   };
 }
 
-std::string measured(const TetTopology& body, const std::vector<std::vector<Target>>& frames,
+std::string measured(const std::vector<Points>& truth, const std::vector<std::vector<Target>>& frames,
                      const Method& method) {
   std::vector<double> errors, times;
   for (int frame = 0; frame < kFrames; ++frame) {
+    const auto now = static_cast<std::size_t>(frame);
     const auto begin = std::chrono::steady_clock::now();
-    const Points x = method(frames[static_cast<std::size_t>(frame)], frame);
+    const Points x = method(frames[now], frame);
     times.push_back(
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count());
-    errors.push_back(1e3 * (x - truth(body, frame)).rowwise().norm().mean());
+    errors.push_back(1e3 * (x - truth[now]).rowwise().norm().mean());
   }
   std::nth_element(times.begin(), times.begin() + kFrames / 2, times.end());
   const double mean = Eigen::Map<Eigen::VectorXd>(errors.data(), kFrames).mean();
@@ -116,19 +112,21 @@ std::string measured(const TetTopology& body, const std::vector<std::vector<Targ
 
 std::string compared(const std::string& name) {
   const TetTopology body = bodyTopology(name);
-  const auto frames = targetsOf(body);
+  const std::vector<Points> truth = heldShapes(body, kCurvature, kFrames);
+  const auto frames = targetsOf(body, truth);
   SimulatorConfig ours, plain, fem;
   plain.lbfgs_history = 0;
   plain.strain_smoothing = 0.0;
+  plain.volume_smoothing = 0.0;
   fem.solver = SolverKind::kFem;
   fem.load_fade_s = plain.load_fade_s = fem.memory_s = plain.memory_s = 0.0;
   Material rigid;
   rigid.poisson_ratio = 0.0;  // without a volume term, the energy is that of as-rigid-as-possible tets
   const auto row = [&](const std::string& words, const Method& method) {
-    return fmt::format(R"("{}": {})", words, measured(body, frames, method));
+    return fmt::format(R"("{}": {})", words, measured(truth, frames, method));
   };
   return fmt::format("\"{}\": {{{}, {}, {}, {}, {}}}", name,
-                     row("mass-spring", massSprings(body, frames.front())),
+                     row("mass-spring", massSprings(body, truth.front(), frames.front())),
                      row("as-rigid-as-possible tets", simulated(body, rigid, plain)),
                      row("plain projective dynamics", simulated(body, Material(), plain)),
                      row("finite elements (Newton)", simulated(body, Material(), fem)),
