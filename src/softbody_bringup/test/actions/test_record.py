@@ -118,7 +118,8 @@ class Record(unittest.TestCase):
                             (RecordGoal(file=f"{self.folder}/none/out.bag"), f"{self.folder}/none"),
                             (RecordGoal(file="/proc/out.bag"), "/proc"),
                             (RecordGoal(file=self.file, duration=-1), "duration is -1"),
-                            (RecordGoal(file=self.file, topics=["no topic"]), "no topic")):
+                            (RecordGoal(file=self.file, topics=["no topic"]), "no topic"),
+                            (RecordGoal(file=self.file, topics=["/words", ""]), "a name in topics is empty; leave it out")):
             state, result = self.end(self.start(goal))
             self.assertEqual((state, result.path), (GoalStatus.ABORTED, ""), goal)
             self.assertIn(words, result.message)

@@ -20,15 +20,35 @@ constexpr double kFeedbackPeriod_s = 0.5;
 constexpr double kLongest_s = 1e6;
 constexpr std::uintmax_t kMegabyte = 1'000'000;
 
-/// Absolute names.
+/// Absolute names. @throw std::invalid_argument for an empty name; ros::InvalidNameException.
 std::set<std::string> topicsOf(const softbody_msgs::RecordGoal& goal, const ros::NodeHandle& node) {
   std::set<std::string> topics;
-  for (const std::string& topic : goal.topics) topics.insert(node.resolveName(topic));
+  for (const std::string& topic : goal.topics) {
+    if (topic.empty()) throw std::invalid_argument("a name in topics is empty; leave it out");
+    topics.insert(node.resolveName(topic));
+  }
   if (!topics.empty()) return topics;
   for (const char* topic : topics::kResult) topics.insert(node.resolveName(topic));
   for (const char* topic : topics::kTransforms) topics.insert(topic);
   return topics;
 }
+
+/// How much ROS time has gone by. It jumps back where a bag is played in a loop; before simulated time has
+/// begun, it is zero.
+class PassedTime {
+ public:
+  /// Seconds, to be called often: a jump back counts nothing.
+  double update() {
+    const ros::Time now = ros::Time::now();
+    if (!last_.isZero() && now > last_) passed_s_ += (now - last_).toSec();
+    last_ = now;
+    return passed_s_;
+  }
+
+ private:
+  ros::Time last_ = ros::Time::now();
+  double passed_s_ = 0.0;
+};
 
 void requireUsable(const softbody_msgs::RecordGoal& goal) {
   const fs::path file = goal.file;
@@ -92,14 +112,14 @@ bool RecorderNode::isStopped() const { return ends_ || !ros::ok(); }
 
 /// @return why it ends early; empty: it does not, or it was cancelled. @throw as TopicRecorder::record().
 std::string RecorderNode::recordUntilEnd(const softbody_msgs::RecordGoal& goal, TopicRecorder* recorder) {
-  const ros::Time start = ros::Time::now();
+  PassedTime passed;
   const fs::path folder = fs::path(goal.file).parent_path();
   ros::WallTime told;
   while (!action_.isPreemptRequested()) {
     if (isStopped()) return "the recorder ends";
     recorder->record();
     softbody_msgs::RecordFeedback progress;
-    progress.seconds = (ros::Time::now() - start).toSec();
+    progress.seconds = passed.update();
     if (goal.duration > 0.0 && progress.seconds >= goal.duration) return "";
     if ((ros::WallTime::now() - told).toSec() < kFeedbackPeriod_s) continue;
     told = ros::WallTime::now();
