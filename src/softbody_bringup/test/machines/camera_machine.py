@@ -58,9 +58,12 @@ def main(frames, offset_s):
     recorder.wait(lambda seen: sum(status.state == TrackingStatus.TRACKING for status in seen["softbody/status"]) >= frames,
                   f"{frames} frames TRACKING")
     states = recorder.wait_for("softbody/surface/state", frames)
+    compared = [state for state in states if state.header.stamp in camera.truths]
     errors = [np.linalg.norm([[p.x, p.y, p.z] for p in state.vertices] - camera.truths[state.header.stamp], axis=1).mean()
-              for state in states if state.header.stamp in camera.truths]
-    print(json.dumps({"states": len(states), "compared": len(errors), "mean_error_m": float(np.mean(errors)),
+              for state in compared]
+    deviations = [np.mean(state.standard_deviation) for state in compared]
+    print(json.dumps({"states": len(states), "compared": len(compared), "mean_error_m": float(np.mean(errors)),
+                      "mean_deviation_m": float(np.mean(deviations)),
                       "topologies": len(recorder.wait_for("softbody/surface/topology")),
                       "warnings": sorted({log.msg for log in recorder.messages["rosout"] if log.level >= Log.WARN})}))
 
