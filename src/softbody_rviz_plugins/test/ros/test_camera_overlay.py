@@ -1,5 +1,7 @@
 #!/usr/bin/env python3
-"""rviz' Camera display draws the body on the camera's image at the pixels where a pinhole camera sees it."""
+"""rviz' Camera display draws the body on the camera's image at the pixels where a pinhole camera sees it, and with
+Only On Images the 3-D view does not draw it.
+"""
 import unittest
 
 import numpy as np
@@ -9,7 +11,7 @@ from geometry_msgs.msg import TransformStamped
 from sensor_msgs.msg import CameraInfo, Image
 from tf2_msgs.msg import TFMessage
 
-from hand_made_body import BODY_DISPLAY, FRAME, LEFT, SIDE, Body
+from hand_made_body import BODY_DISPLAY, FRAME, LEFT, RIGHT, SIDE, Body
 from rviz_screen import Rviz, pixels_of
 
 WIDTH, HEIGHT, FOCAL = 320, 240, 400.0
@@ -19,6 +21,7 @@ BORDER = (0, 255, 0)  # drawn around the image, to find it on the screen
 CAMERA_DISPLAY = {"Class": "rviz/Camera", "Name": "Camera", "Enabled": True, "Image Topic": "/test/image",
                   "Image Rendering": "background", "Transport Hint": "raw", "Queue Size": 2}
 VIEW = {"Class": "rviz/TopDownOrtho", "Name": "View", "Scale": 10.0, "X": 100.0, "Y": 100.0}  # the body is outside
+VIEW_OF_BODY = {**VIEW, "Scale": 400.0, "X": 0.0, "Y": 0.0, "Target Frame": FRAME}
 
 
 class Camera:
@@ -66,17 +69,33 @@ def measured(picture):
     return piece * np.tile(np.array([WIDTH, HEIGHT]) / (frame[2:] - frame[:2]), 2) - 0.5
 
 
+def in_view(picture):
+    """How many pixels outside the image have the colour of the right piece, or None without an image.
+    The left one has the blue of some buttons.
+    """
+    frame = box(picture, BORDER)
+    if frame is None:
+        return None
+    left, top, right, bottom = frame.astype(int)
+    view = picture.copy()
+    view[top:bottom, left:right] = 0
+    return len(pixels_of(view, RIGHT)[0])
+
+
 class TestCameraOverlay(unittest.TestCase):
-    def test_the_mesh_lies_on_its_pixels(self):
+    @classmethod
+    def setUpClass(cls):
         rospy.init_node("test_camera_overlay")
-        camera, body = Camera(), Body()
+        cls.camera, body = Camera(), Body()
         body.send_topology()
         body.send_state(offset=(0.0, 0.0, DEPTH))
+
+    def test_the_mesh_lies_on_its_pixels(self):
         corners = np.array([-SIDE, -SIDE / 2, 0.0, SIDE / 2]) * FOCAL / DEPTH + np.tile(CENTER, 2)
         seen = []
 
         def is_there(picture):
-            camera.send()
+            self.camera.send()
             seen.append(measured(picture))
             return seen[-1] is not None and np.abs(seen[-1] - corners).max() <= 1.0
 
@@ -86,6 +105,18 @@ class TestCameraOverlay(unittest.TestCase):
         finally:
             rviz.end()
         print("largest distance of an edge from its place [pixels]:", np.abs(seen[-1] - corners).max())
+
+    def test_only_on_images_means_not_in_the_view(self):
+        for only, is_right in ((False, lambda pixels: pixels > 0), (True, lambda pixels: pixels == 0)):
+            def is_drawn(picture, is_right=is_right):
+                self.camera.send()
+                return measured(picture) is not None and is_right(in_view(picture))
+
+            rviz = Rviz([{**BODY_DISPLAY, "Only On Images": only}, CAMERA_DISPLAY], VIEW_OF_BODY, 1000, 600)
+            try:
+                self.assertTrue(rviz.wait_for(is_drawn), f"Only On Images: {only}")
+            finally:
+                rviz.end()
 
 
 if __name__ == "__main__":
