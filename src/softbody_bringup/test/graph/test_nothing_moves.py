@@ -111,7 +111,7 @@ class NothingMoves(unittest.TestCase):
     def test_a_body_that_is_not_in_view_and_tf_that_is_missing(self):
         camera = Camera()
         try:
-            self.expect(track(), "not tracking: .*")
+            self.expect(track(), "not tracking: the body was not found: .+")
             self.expect(track("output_frame:=nowhere"), "tf does not say where .* is in output_frame nowhere")
         finally:
             camera.stop()
