@@ -13,12 +13,13 @@
 namespace softbody {
 namespace {
 
-/// Freed memory of an image is for the next one. glibc gives it back to the system, which then has to clear
-/// the same pages for every frame; its own limits grow only up to the size of one image.
-void keepFreedImages() {
+/// glibc's own limits grow only up to the size of one image.
+void setLimits(FreedMemory freed) {
   constexpr int kLargestBlock = 32 << 20;  // glibc's largest threshold; an image of 3840x2160 in metres
-  mallopt(M_MMAP_THRESHOLD, kLargestBlock);
-  mallopt(M_TRIM_THRESHOLD, 2 * kLargestBlock);  // glibc's own ratio
+  constexpr int kLargeArray = 1 << 18;     // [bytes]
+  const int block = freed == FreedMemory::kReturned ? kLargeArray : kLargestBlock;
+  mallopt(M_MMAP_THRESHOLD, block);
+  mallopt(M_TRIM_THRESHOLD, 2 * block);  // glibc's own ratio
 }
 
 }  // namespace
@@ -26,7 +27,7 @@ void keepFreedImages() {
 // rosconsole has read ROSCONSOLE_STDOUT_LINE_BUFFERED before main.
 void logLineByLine() { std::setvbuf(stdout, nullptr, _IOLBF, 0); }
 
-int runNode(int argc, char** argv, const char* name, NodeMaker make) {
+int runNode(int argc, char** argv, const char* name, NodeMaker make, FreedMemory freed) {
   std::vector<std::string> words;
   ros::removeROSArgs(argc, argv, words);
   if (words.size() == 2 && (words[1] == "--help" || words[1] == "-h")) {
@@ -39,7 +40,7 @@ int runNode(int argc, char** argv, const char* name, NodeMaker make) {
     std::printf("%s\n", packageVersion().c_str());
     return 0;
   }
-  keepFreedImages();
+  setLimits(freed);
   logLineByLine();
   ros::init(argc, argv, name);
   // This handle outlives the node, because the last handle shuts down ROS and the log.
