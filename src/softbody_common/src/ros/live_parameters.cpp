@@ -52,12 +52,10 @@ ValueMap valuesIn(const Config& config) {
   return values;
 }
 
-/// The ends of a parameter's range. A switch and a text have none.
+/// The ends of a parameter's range, as values of its type.
 std::pair<ParameterValue, ParameterValue> rangeOf(const ParameterDescription& p) {
-  if (p.type == "bool") return {false, true};
   if (p.type == "int") return {static_cast<int>(p.range.min), static_cast<int>(p.range.max)};
-  if (p.type == "double") return {p.range.min, p.range.max};
-  return {std::string(), std::string()};
+  return {p.range.min, p.range.max};
 }
 
 dynamic_reconfigure::ConfigDescription descriptionOf(const std::vector<ParameterDescription>& parameters,

@@ -37,7 +37,7 @@ ParameterTable<Options> makeTable() {
   table.number("count", &Options::count, {0, 9}, "", "how many", Change::kLive);
   table.number("limit", &Options::limit, {0.0, 1.0}, "m", "how far");
   table.number("size", &Options::size, {1.0, 2.0}, "m", "from the file", "how large", Change::kLive);
-  table.flag("on", &Options::on, "whether", Change::kLive);
+  table.flag("on", &Options::on, "whether");
   table.text("name", &Options::name, "who");
   table.choice<Mode>("mode", &Options::mode, {{"fast", Mode::kFast}, {"exact", Mode::kExact}}, "how");
   table.choice("word", &Options::word, {"one", "two"}, "which");
@@ -136,7 +136,7 @@ TEST(ParameterTable, ChangesOnlyWhatIsGivenAndLive) {
 TEST(ParameterTable, GivesTheLiveValuesThatAreSet) {
   Options options;
   EXPECT_EQ(makeTable().liveValues(options),
-            (std::map<std::string, ParameterValue>{{"count", 3}, {"on", true}, {"weight", 0.5}}));
+            (std::map<std::string, ParameterValue>{{"count", 3}, {"weight", 0.5}}));
   options.size = 1.25;
   EXPECT_EQ(makeTable().liveValues(options).at("size"), ParameterValue(1.25));
 }
@@ -149,7 +149,7 @@ TEST(ParameterTable, DescribesItselfAsAMarkdownTable) {
             "| count | 3 | | 0 to 9 | yes | how many |\n"
             "| limit | 1e-6 | m | 0 to 1 | | how far |\n"
             "| size | from the file | m | 1 to 2 | yes | how large |\n"
-            "| on | true | | | yes | whether |\n"
+            "| on | true | | | | whether |\n"
             "| name | (none) | | | | who |\n"
             "| mode | exact | | fast, exact | | how |\n"
             "| word | one | | one, two | | which |\n"

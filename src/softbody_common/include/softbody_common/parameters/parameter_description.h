@@ -29,9 +29,8 @@ struct ParameterDescription {
   std::string allowed;  ///< e.g. "0 to 1" or "pd, fem"; empty: every value of the type
   std::string meaning;  ///< Markdown; links start in the folder of the group's page
   Change change = Change::kAtStart;
-  std::string group;                 ///< which table of the documentation has it
-  Range range = {0.0, 0.0};          ///< of int and double
-  std::vector<std::string> choices;  ///< of str; empty: any text
+  std::string group;         ///< which table of the documentation has it
+  Range range = {0.0, 0.0};  ///< of int and double
 };
 
 /// As people write it: 0.5, 1e-6, true, pd; an empty text is "(none)".

@@ -72,8 +72,8 @@ class ParameterTable {
 
   /// A duration that is given in seconds.
   ParameterDescription& seconds(const std::string& name, Nanoseconds Config::*member, const Range& range,
-                                const std::string& meaning, Change change = Change::kAtStart) {
-    Row row{described(name, "double", "s", range, meaning, change), {}, {}};
+                                const std::string& meaning) {
+    Row row{described(name, "double", "s", range, meaning, Change::kAtStart), {}, {}};
     row.read = [=](Parameters& given, Config* config) {
       const double now_s = softbody::seconds(config->*member);
       config->*member = nanoseconds(given.number(name, now_s, range.min, range.max));
@@ -97,9 +97,8 @@ class ParameterTable {
     return add(std::move(row));
   }
 
-  ParameterDescription& flag(const std::string& name, bool Config::*member, const std::string& meaning,
-                             Change change = Change::kAtStart) {
-    return scalar(described(name, "bool", "", meaning, change), member,
+  ParameterDescription& flag(const std::string& name, bool Config::*member, const std::string& meaning) {
+    return scalar(described(name, "bool", "", meaning), member,
                   [=](Parameters& given, bool now) { return given.flag(name, now); });
   }
 
@@ -121,20 +120,16 @@ class ParameterTable {
 
   /// One of some words.
   ParameterDescription& choice(const std::string& name, std::string Config::*member,
-                               const std::vector<std::string>& words, const std::string& meaning,
-                               Change change = Change::kAtStart) {
-    ParameterDescription& row =
-        scalar(described(name, "str", joined(words), meaning, change), member,
-               [=](Parameters& given, const std::string& now) { return given.choice(name, now, words); });
-    row.choices = words;
-    return row;
+                               const std::vector<std::string>& words, const std::string& meaning) {
+    return scalar(described(name, "str", joined(words), meaning), member,
+                  [=](Parameters& given, const std::string& now) { return given.choice(name, now, words); });
   }
 
   /// One of some words, each of which means a value.
   template <typename T>
   ParameterDescription& choice(const std::string& name, T Config::*member,
                                const std::vector<std::pair<std::string, T>>& meanings,
-                               const std::string& meaning, Change change = Change::kAtStart) {
+                               const std::string& meaning) {
     std::vector<std::string> words;
     for (const auto& [word, value] : meanings) words.push_back(word);
     const auto wordOf = [=](const T& wanted) {
@@ -142,8 +137,7 @@ class ParameterTable {
         if (value == wanted) return word;
       return std::string();
     };
-    Row row{described(name, "str", joined(words), meaning, change), {}, {}};
-    row.description.choices = words;
+    Row row{described(name, "str", joined(words), meaning), {}, {}};
     row.read = [=](Parameters& given, Config* config) {
       const std::string chosen = given.choice(name, wordOf(config->*member), words);
       for (const auto& [word, value] : meanings)
@@ -256,22 +250,21 @@ class ParameterTable {
   };
 
   static ParameterDescription described(const std::string& name, const std::string& type,
-                                        const std::string& allowed, const std::string& meaning,
-                                        Change change = Change::kAtStart) {
+                                        const std::string& allowed, const std::string& meaning) {
     ParameterDescription description;
     description.name = name;
     description.type = type;
     description.allowed = allowed;
     description.meaning = meaning;
-    description.change = change;
     return description;
   }
 
   static ParameterDescription described(const std::string& name, const std::string& type,
                                         const std::string& unit, const Range& range,
                                         const std::string& meaning, Change change) {
-    ParameterDescription description = described(name, type, toText(range), meaning, change);
+    ParameterDescription description = described(name, type, toText(range), meaning);
     description.unit = unit;
+    description.change = change;
     description.range = range;
     return description;
   }
