@@ -50,6 +50,14 @@ TEST_F(Colors, ofABinaryPly) {
   EXPECT_EQ(readVertexColors(ply("binary_little_endian", "uchar", rows)), kThree);
 }
 
+TEST_F(Colors, ofAPlyMayStandAfterAnotherElement) {
+  EXPECT_EQ(readVertexColors(write("mesh.ply",
+                                   "ply\nformat ascii 1.0\nelement camera 1\nproperty float fov\n"
+                                   "element vertex 1\nproperty uchar red\nproperty uchar green\n"
+                                   "property uchar blue\nend_header\n0.5\n255 0 51\n")),
+            VertexColors({kThree[0]}));
+}
+
 TEST_F(Colors, ofAnObjStandAfterThePosition) {
   EXPECT_EQ(readVertexColors(write(
                 "mesh.obj", "# v 9\nv 0 0 0 1 0 0.2\nv 1 0 0 0 .4 1\nv 0 1 0 .0392 .0784 .1176\nf 1 2 3\n")),

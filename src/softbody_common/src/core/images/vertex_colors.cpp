@@ -42,7 +42,9 @@ class ColorList {
 VertexColors readPlyColors(const std::string& path) {
   PlyReader reader(path);
   ColorList colors;
-  while (reader.next() && reader.element() == "vertex")
+  bool more = reader.next();
+  while (more && reader.element() != "vertex") more = reader.next();
+  for (; more && reader.element() == "vertex"; more = reader.next())
     colors.add({reader.shareOf({"red", "diffuse_red"}), reader.shareOf({"green", "diffuse_green"}),
                 reader.shareOf({"blue", "diffuse_blue"})});
   return colors.take();
