@@ -121,17 +121,16 @@ void LiveParameters::publishChanges() {
   updates_.publish(toConfig(published_));
 }
 
-/// A tool that sends all values changes only those that differ. The protocol has no field for the reason of a
-/// refusal: the caller gets an error, and the log says why.
+/// A tool that sends all values changes only those that differ. The reason of a refusal goes to the caller
+/// and to the log as the error of the service.
 bool LiveParameters::onSet(dynamic_reconfigure::Reconfigure::Request& request,
                            dynamic_reconfigure::Reconfigure::Response& response) {
   Parameters given(toYaml(newIn(valuesIn(request.config), values_())), private_node_.getNamespace() + "/");
   try {
     change_(given);
-  } catch (const std::invalid_argument& error) {
-    ROS_WARN_STREAM("set_parameters changes nothing: " << error.what());
-    updates_.publish(toConfig(published_));  // a slider goes back
-    return false;
+  } catch (...) {
+    publishChanges();  // a slider goes back
+    throw;
   }
   publishChanges();
   response.config = toConfig(published_);
