@@ -51,7 +51,7 @@ ParameterTable<FeatureConfig> featureTable() {
   table.number("feature_max_disagreement_m", &Config::max_disagreement_m, {1e-4, 1.0}, "m",
                "a match that differs more from its neighbours is an outlier", Change::kLive);
   table.number("feature_weight", &Config::weight, {1e-6, kLargestTargetWeight}, "",
-               "the factor in the equation above. With `target_mode: knn` only used in the rigid step",
+               "weight of a feature target; with `target_mode: knn` only used in the rigid step",
                Change::kLive);
   return table;
 }

@@ -48,7 +48,8 @@ ParameterTable<WatchLimits> watchTable() {
                "frames that are complete later after their stamp: the node warns that the clocks differ",
                Change::kLive);
   table.number("lead_limit_s", &WatchLimits::lead_s, {0.0, 3600.0}, "s",
-               "stamps that are ahead of this machine's clock by more: likewise", Change::kLive);
+               "stamps that are ahead of this machine's clock by more: the node warns that the clocks differ",
+               Change::kLive);
   return table;
 }
 

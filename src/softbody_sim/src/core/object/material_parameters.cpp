@@ -13,10 +13,10 @@ ParameterTable<MaterialParameters> makeMaterialTable() {
   table.number("youngs_modulus_pa", &Values::youngs_modulus_pa, rangeOf(kYoungsModulusRange), "Pa", kOwn,
                "stiffness of the whole body; [regions](../your_own_object.md#4-the-material) keep theirs",
                Change::kLive);
-  table.number("poisson_ratio", &Values::poisson_ratio, rangeOf(kPoissonRatioRange), "", kOwn, "likewise",
-               Change::kLive);
-  table.number("density_kg_m3", &Values::density_kg_m3, rangeOf(kDensityRange), "kg/m³", kOwn, "likewise",
-               Change::kLive);
+  table.number("poisson_ratio", &Values::poisson_ratio, rangeOf(kPoissonRatioRange), "", kOwn,
+               "Poisson's ratio of the whole body; regions keep theirs", Change::kLive);
+  table.number("density_kg_m3", &Values::density_kg_m3, rangeOf(kDensityRange), "kg/m³", kOwn,
+               "density of the whole body; regions keep theirs", Change::kLive);
   table.number("damping", &Values::damping, rangeOf(kDampingRange), "", kOwn,
                "fraction of the velocity that is lost per 1/30 s", Change::kLive);
   return table;

@@ -49,7 +49,8 @@ ParameterTable<CameraIngestConfig> makeCameraIngestTable() {
   using Config = CameraIngestConfig;
   ParameterTable<Config> table;
   table.group("camera_ingest");
-  table.number("edge_jump_ratio", &Config::edge_jump_ratio, {0.001, 1.0}, "of z", "r above", Change::kLive);
+  table.number("edge_jump_ratio", &Config::edge_jump_ratio, {0.001, 1.0}, "of z",
+               "neighbouring pixels with a larger jump of depth are two surfaces", Change::kLive);
   table.number("min_depth_m", &Config::min_depth_m, {0.001, 100.0}, "m", "smallest depth that is used",
                Change::kLive);
   table.number("max_depth_m", &Config::max_depth_m, {0.001, 100.0}, "m",
