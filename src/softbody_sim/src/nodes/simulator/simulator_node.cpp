@@ -41,14 +41,15 @@ SimulatorNode::SimulatorNode(const ros::NodeHandle& node, const ros::NodeHandle&
 SimulatorNode::SimulatorNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
                              const SimulatorOptions& options)
     : SimulatorNode(node, private_node, options,
-                    loadSimulatedObject(options.object, fileScope(options.allow_outside))) {}
+                    loadSimulatedObject(options.object, fileScope(options.allow_outside)),
+                    surroundingsOf(options.surroundings, options.simulator.target_accuracy_m)) {}
 
 SimulatorNode::SimulatorNode(ros::NodeHandle node, const ros::NodeHandle& private_node,
-                             const SimulatorOptions& options, const SimulatedObject& object)
+                             const SimulatorOptions& options, const SimulatedObject& object,
+                             const SurroundingsConfig& surroundings)
     : options_(options),
       simulator_(makeSimulator(object.model, &options_, &timer_)),
-      surroundings_(node, surroundingsOf(options_.surroundings, options_.simulator.target_accuracy_m),
-                    {object.model.visual, object.model.volume}),
+      surroundings_(node, surroundings, {object.model.visual, object.model.volume}),
       stamps_(node.resolveName(topics::kTargets), StampGate::Repeats::kAccepted),
       publisher_(node, options_.body_frame),
       forces_(node, options_.wrench_frame),
@@ -61,11 +62,7 @@ SimulatorNode::SimulatorNode(ros::NodeHandle node, const ros::NodeHandle& privat
       loader_(node, private_node, fileScope(options.allow_outside),
               {[this] { return simulator_.topology().revision; }, [this] { return simulator_.config(); },
                [this](NextObject* next) { useObject(next); }}) {
-  if (!options_.surroundings.gripper.frame.empty()) {
-    gripper_.emplace(node, private_node,
-                     surroundingsOf(options_.surroundings, options_.simulator.target_accuracy_m), &simulator_,
-                     &surroundings_);
-  }
+  if (surroundings.gripper) gripper_.emplace(node, private_node, surroundings, &simulator_, &surroundings_);
   for (const PinRegion& pin : object.pins) surroundings_.addPin(pin, object.model.volume);
   publisher_.publishEdited(simulator_, {});
   const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();

@@ -38,7 +38,7 @@ class SimulatorNode {
   SimulatorNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
                 const SimulatorOptions& options);
   SimulatorNode(ros::NodeHandle node, const ros::NodeHandle& private_node, const SimulatorOptions& options,
-                const SimulatedObject& object);
+                const SimulatedObject& object, const SurroundingsConfig& surroundings);
 
   void prepareSoon(ros::NodeHandle* node);
   void onTargets(const softbody_msgs::TargetsConstPtr& message);
