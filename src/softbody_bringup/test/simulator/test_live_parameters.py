@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Parameters of a simulator that change while it runs, with the tools of dynamic_reconfigure. The body hangs from soft
 targets in gravity: how far it sinks shows what is in force."""
+import copy
 import os
 import subprocess
 import sys
@@ -45,15 +46,15 @@ class LiveParameters(unittest.TestCase):
 
     def setUp(self):
         self.wait_for_simulator()
-        self.client.update_configuration({"target_stiffness": STIFFNESS, **MATERIAL})
+        self.client.update_configuration({"target_stiffness": STIFFNESS, "load_fade_s": 0.0, **MATERIAL})
 
     def wait_for_simulator(self):
         self.recorder.wait(lambda _: self.publisher.get_num_connections() > 0, "a simulator that listens")
         rospy.wait_for_service(NODE + "/set_parameters", 60)
 
-    def step(self, reset=False):
+    def step(self, targets, reset=False):
         type(self).stamp += rospy.Duration(nsecs=33333333)
-        message = Targets(targets=self.targets, reset=reset, body_pose=Pose(orientation=Quaternion(w=1.0)))
+        message = Targets(targets=targets, reset=reset, body_pose=Pose(orientation=Quaternion(w=1.0)))
         message.header.stamp, message.header.frame_id = self.stamp, "world"
         self.publisher.publish(message)
         return self.recorder.wait(
@@ -62,9 +63,9 @@ class LiveParameters(unittest.TestCase):
 
     def depth(self, reset=True):
         """How far the middle of the body sinks [m]."""
-        state = self.step(reset=reset)
+        state = self.step(self.targets, reset)
         for _ in range(STEPS):
-            state = self.step()
+            state = self.step(self.targets)
         return self.rest[:, 2].mean() - heights(state.vertices).mean()
 
     def parameter(self, name):
@@ -120,6 +121,27 @@ class LiveParameters(unittest.TestCase):
         rospy.ServiceProxy(NODE + "/set_material", SetMaterial)(**{**MATERIAL, "youngs_modulus_pa": 3.0e4})
         self.recorder.wait(lambda _: updates and updates[-1]["youngs_modulus_pa"] == 3.0e4, "an update")
         self.assertEqual(self.parameter("youngs_modulus_pa"), 3.0e4)
+
+    def test_set_material_forgets_loads(self):
+        """Also with the present values: the next motion without targets is another one."""
+        self.client.update_configuration({"target_stiffness": 1.0, "load_fade_s": 1.0})
+        set_material = rospy.ServiceProxy(NODE + "/set_material", SetMaterial)
+        kept, forgotten = self.after_pulling(lambda: None), self.after_pulling(lambda: set_material(**MATERIAL))
+        self.client.update_configuration({"load_fade_s": 0.0})
+        without, same = self.after_pulling(lambda: None), self.after_pulling(lambda: set_material(**MATERIAL))
+        self.assertGreater(np.abs(kept - forgotten).max(), 1e-3)
+        self.assertLess(np.abs(without - same).max(), 1e-6)
+
+    def after_pulling(self, change):
+        """@return vertices a few frames after a target that pulled has gone, and all others."""
+        pulled = copy.deepcopy(self.targets)
+        pulled[0].position.x += 0.02
+        for frame in range(10):
+            self.step(pulled, frame == 0)
+        change()
+        for _ in range(5):
+            state = self.step([])
+        return np.array([[p.x, p.y, p.z] for p in state.vertices])
 
     def test_a_simulator_that_starts_again_keeps_the_values(self):
         self.client.update_configuration({"target_stiffness": 0.5 * STIFFNESS, "youngs_modulus_pa": 4.0e4})

@@ -84,5 +84,44 @@ TEST(SimulatorConfig, WithoutLoadsThereAreNoStandardDeviations) {
   EXPECT_TRUE(simulator.state().standard_deviation.empty());
 }
 
+/// Where a body's middle goes in frames without targets, after one target has pulled a body that is held.
+Eigen::RowVector3d driftAfterPulling(double load_fade_s) {
+  Simulator simulator = placedSponge(SimulatorConfig());
+  TargetSet targets;
+  targets.targets = testing::vertexTargets(simulator.topology(), simulator.topology().rest_vertices);
+  targets.targets.front().position.x() += 0.01;
+  for (int frame = 1; frame <= 10; ++frame) simulator.step(targets, frame * testing::kFrame);
+  SimulatorConfig config;
+  config.load_fade_s = load_fade_s;
+  simulator.setConfig(config);
+  simulator.setVertices(simulator.topology().rest_vertices);  // without motion and tension
+  for (int frame = 11; frame <= 20; ++frame) simulator.stepUnobserved({}, frame * testing::kFrame);
+  return simulator.state().vertices.colwise().mean() - simulator.topology().rest_vertices.colwise().mean();
+}
+
+TEST(SimulatorConfig, WithoutLoadsNoEarlierLoadPushes) {
+  EXPECT_GT(driftAfterPulling(0.1).norm(), 1e-5);
+  EXPECT_LT(driftAfterPulling(0.0).norm(), 1e-9);
+}
+
+TEST(SimulatorConfig, ChangesWithTheMaterialOrNotAtAll) {
+  Simulator simulator = placedSponge(SimulatorConfig()), same = placedSponge(SimulatorConfig());
+  SimulatorConfig config;
+  config.iterations = 7;
+  Material wrong, stiff;
+  wrong.poisson_ratio = 0.6;
+  stiff.youngs_modulus_pa = 9e4;
+  EXPECT_THROW(simulator.change(wrong, config), std::invalid_argument);
+  SimulatorConfig unknown = config;
+  unknown.simd = "none";
+  EXPECT_THROW(simulator.change(stiff, unknown), std::invalid_argument);
+  EXPECT_EQ(simulator.config().iterations, SimulatorConfig().iterations);
+  EXPECT_EQ(simulator.material().youngs_modulus_pa, Material().youngs_modulus_pa);
+  EXPECT_EQ(afterPulling(&simulator), afterPulling(&same));
+  simulator.change(stiff, config);
+  EXPECT_EQ(simulator.config().iterations, 7);
+  EXPECT_EQ(simulator.material().youngs_modulus_pa, 9e4);
+}
+
 }  // namespace
 }  // namespace softbody

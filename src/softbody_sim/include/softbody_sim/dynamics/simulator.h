@@ -95,15 +95,15 @@ class Simulator {
   /// keep targets through many edits, convert them after each edit.
   TargetSet toCurrentRevision(TargetSet targets) const;
 
-  /// Changes the material. Shape, motion and cuts stay, estimated loads are forgotten. The time is that of
-  /// the first construction.
-  /// @throw std::invalid_argument if a value is out of its range; nothing has changed.
-  void setMaterial(const Material& material);
-
   const SimulatorConfig& config() const;
-  /// Changes how the next steps are made. Shape, motion, loads and cuts stay, what earlier frames have
-  /// measured is forgotten; undo_memory_mb holds from the next reset() on. The time is as for setMaterial.
+  /// Changes what the body is made of and how the next steps are made. Shape, motion and cuts stay. Estimated
+  /// loads and what earlier frames have measured are forgotten, with load_fade_s 0 also standard deviations.
+  /// undo_memory_mb holds from the next reset() on. The time is that of the first construction.
   /// @throw std::invalid_argument as the constructor does; nothing has changed.
+  void change(const Material& material, const SimulatorConfig& config);
+  /// The same with the present config.
+  void setMaterial(const Material& material);
+  /// The same with the present material. Loads stay, unless load_fade_s is 0.
   void setConfig(const SimulatorConfig& config);
 
   /// Returns to the uncut body of the first revision, not placed. The material stays.

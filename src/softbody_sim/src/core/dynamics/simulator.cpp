@@ -37,27 +37,22 @@ void Simulator::Implementation::setTopology(const TetTopology& topology) {
   if (model && model->hasTets(topology))
     model->topology.revision = topology.revision;
   else
-    makeModel(topology);
+    makeModel(topology, material, config);
   body.mesh.revision = topology.revision;
 }
 
 /// The model of a body with many cuts takes most of the memory, so the old one goes first. If the new one
 /// cannot be made, the old one comes back.
-void Simulator::Implementation::makeModel(const TetTopology& topology) {
+void Simulator::Implementation::makeModel(const TetTopology& topology, const Material& next_material,
+                                          const SimulatorConfig& next_config) {
   const TetTopology before = model ? std::move(model->topology) : topology;
   model.reset();
   try {
-    model = std::make_unique<BodyModel>(topology, material, config, edge_length);
+    model = std::make_unique<BodyModel>(topology, next_material, next_config, edge_length);
   } catch (...) {
     model = std::make_unique<BodyModel>(before, material, config, edge_length);
     throw;
   }
-}
-
-void Simulator::Implementation::remakeModel() {
-  makeModel(TetTopology(model->topology));
-  body.contact.contacts.clear();  // a depth gives another pressure now
-  integrator = ImplicitEuler(config, material.damping);
 }
 
 const TargetSet& Simulator::Implementation::toCurrentRevision(const TargetSet& targets,
@@ -199,24 +194,31 @@ void Simulator::setVertices(const Points& vertices) {
   body.contact = {};
 }
 
-void Simulator::setMaterial(const Material& material) {
+void Simulator::change(const Material& material, const SimulatorConfig& config) {
   Implementation& s = *implementation_;
   softbody::requireUsable(material);
   requireUsedRegions(s.uncut, material);
+  requireConsistent(config);
+  ImplicitEuler integrator(config, material.damping);
+  s.makeModel(TetTopology(s.model->topology), material, config);
+  s.integrator = std::move(integrator);
   s.material = material;
-  s.remakeModel();
+  s.config = config;
+  s.body.contact.contacts.clear();  // a depth gives another pressure now
+  s.body.memory = {};
+  if (config.load_fade_s <= 0.0) s.body.mesh.standard_deviation.clear();
   if (s.body.placed) s.body.loads = {Points::Zero(s.body.mesh.vertices.rows(), 3)};
 }
+
+void Simulator::setMaterial(const Material& material) { change(material, config()); }
 
 const SimulatorConfig& Simulator::config() const { return implementation_->config; }
 
 void Simulator::setConfig(const SimulatorConfig& config) {
   Implementation& s = *implementation_;
-  requireConsistent(config);
-  s.config = config;
-  s.remakeModel();
-  s.body.memory = {};
-  if (config.load_fade_s <= 0.0) s.body.mesh.standard_deviation.clear();
+  LoadEstimate loads = s.body.loads;
+  change(s.material, config);
+  if (config.load_fade_s > 0.0) s.body.loads = std::move(loads);
 }
 
 std::unique_ptr<Simulator> Simulator::copyOfPresent() const { return copyWith(implementation_->config); }

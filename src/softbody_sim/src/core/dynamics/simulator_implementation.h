@@ -16,9 +16,8 @@ struct Simulator::Implementation {
   Implementation(const TetTopology& topology, const Material& material_in, const SimulatorConfig& config_in);
 
   void setTopology(const TetTopology& topology);
-  void makeModel(const TetTopology& topology);
-  /// After a change of material or config.
-  void remakeModel();
+  void makeModel(const TetTopology& topology, const Material& next_material,
+                 const SimulatorConfig& next_config);
   std::size_t undoBytes() const { return static_cast<std::size_t>(1e6 * config.undo_memory_mb); }
   /// Takes over an edited volume and the body in its shape.
   void setEdited(EditedVolume edited, BodyState next);

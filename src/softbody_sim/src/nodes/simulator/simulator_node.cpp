@@ -270,18 +270,19 @@ void SimulatorNode::publishEdited(const ros::Time& stamp) {
 
 /// What is new in the options takes effect with the next step.
 void SimulatorNode::applyOptions(const SimulatorOptions& next) {
-  if (isOther(simulatorParameters(), next.simulator, options_.simulator))
-    simulator_.setConfig(next.simulator);
   if (isOther(materialParameters(), next.material, options_.material))
-    simulator_.setMaterial(withParameters(simulator_.material(), next.material));
+    simulator_.change(withParameters(simulator_.material(), next.material), next.simulator);
+  else if (isOther(simulatorParameters(), next.simulator, options_.simulator))
+    simulator_.setConfig(next.simulator);
 }
 
+/// Also with the present values: estimated loads are forgotten.
 bool SimulatorNode::onSetMaterial(softbody_msgs::SetMaterial::Request& request,
                                   softbody_msgs::SetMaterial::Response& response) try {
-  SimulatorOptions next = options_;
-  next.material = {request.youngs_modulus_pa, request.poisson_ratio, request.density_kg_m3, request.damping};
-  applyOptions(next);
-  options_ = std::move(next);
+  simulator_.setMaterial(withParameters(
+      simulator_.material(),
+      {request.youngs_modulus_pa, request.poisson_ratio, request.density_kg_m3, request.damping}));
+  options_.material = parametersOf(simulator_.material());
   live_parameters_.publishChanges();
   response.success = 1;
   return true;
@@ -295,11 +296,11 @@ void SimulatorNode::useObject(NextObject* next) {
   const TetTopology& topology = next->simulator.topology();
   if (topology.revision != simulator_.topology().revision + 1)
     throw std::runtime_error("the body was cut while the object was loaded; load the object again");
+  if (isOther(simulatorParameters(), next->simulator.config(), options_.simulator))
+    next->simulator.setConfig(options_.simulator);  // changed while the object was loaded
   surroundings_.replacePins(next->surface, next->pins, topology);
   simulator_ = std::move(next->simulator);
   options_.material = parametersOf(simulator_.material());
-  if (isOther(simulatorParameters(), simulator_.config(), options_.simulator))
-    simulator_.setConfig(options_.simulator);  // changed while the object was loaded
   live_parameters_.publishChanges();
   last_ = {};
   publishOwnEdits();
