@@ -118,6 +118,15 @@ TEST(BodySurface, FollowsAnEditOfTheTets) {
   }
 }
 
+TEST(BodySurface, IsOneForAllThatAskUntilTheTetsChange) {
+  const TetTopology volume = sponge(), edited = boxTopology({7, 3, 2}, {0.2, 0.1, 0.03});
+  SurroundingsFollower follower({}, BodySurface(visualMesh(), volume));
+  const auto surface = follower.surfaceIn(volume);
+  follower.addPin({"all", "", Eigen::Vector3d::Constant(-1.0), Eigen::Vector3d::Constant(1.0)}, volume);
+  EXPECT_EQ(follower.surfaceIn(volume), surface);
+  EXPECT_NE(follower.surfaceIn(edited), surface);
+}
+
 TEST(BodySurface, ABoxInAFrameHoldsTheDeformedSurface) {
   const TetTopology volume = sponge();
   const BodySurface surface = BodySurface(visualMesh(), volume).in(volume);

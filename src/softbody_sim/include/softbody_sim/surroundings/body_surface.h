@@ -20,6 +20,8 @@ class BodySurface {
 
   /// The same surface in an edited volume. @throw std::invalid_argument if the volume has no tets.
   BodySurface in(const TetTopology& volume) const;
+  /// Whether in() would give the same.
+  bool isIn(const TetTopology& volume) const;
 
   /// The vertices of the tets to hold, ascending: those in the box, and where these carry less than half of a
   /// point of the surface in the box, all that carry it. So the held part ends at the tets' vertices that are

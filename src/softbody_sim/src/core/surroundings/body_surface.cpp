@@ -22,18 +22,24 @@ Points transformedTo(const Eigen::Isometry3d& T_box_points, const Points& points
   return (points * T_box_points.linear().transpose()).rowwise() + T_box_points.translation().transpose();
 }
 
+bool sameTets(const TetTopology& a, const TetTopology& b) {
+  return sameMatrix(a.tets, b.tets) && sameMatrix(a.rest_vertices, b.rest_vertices);
+}
+
 }  // namespace
 
 BodySurface::BodySurface(MeshTopology visual, TetTopology volume)
     : visual_(std::move(visual)), volume_(std::move(volume)) {}
 
+bool BodySurface::isIn(const TetTopology& volume) const {
+  return visual_.rest_vertices.rows() == 0 || (places_ && sameTets(volume_, volume));
+}
+
 BodySurface BodySurface::in(const TetTopology& volume) const {
   BodySurface surface = *this;
   if (visual_.rest_vertices.rows() == 0) return surface;
   if (!places_) surface.places_ = bindSurface(visual_, volume_);
-  const bool is_same =
-      sameMatrix(volume_.tets, volume.tets) && sameMatrix(volume_.rest_vertices, volume.rest_vertices);
-  if (is_same) return surface;
+  if (sameTets(volume_, volume)) return surface;
   surface.places_ = transferPlaces(*surface.places_, volume_, volume);
   surface.volume_ = volume;
   return surface;

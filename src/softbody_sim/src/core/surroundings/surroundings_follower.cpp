@@ -107,7 +107,8 @@ std::string SurroundingsFollower::reportUnknownFrame(const std::string& name) {
 }
 
 std::shared_ptr<const BodySurface> SurroundingsFollower::surfaceIn(const TetTopology& volume) {
-  return surface_ = std::make_shared<BodySurface>(surface_->in(volume));
+  if (!surface_->isIn(volume)) surface_ = std::make_shared<BodySurface>(surface_->in(volume));
+  return surface_;
 }
 
 std::size_t SurroundingsFollower::addPin(PinRegion region, const TetTopology& volume) {
