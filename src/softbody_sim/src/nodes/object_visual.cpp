@@ -48,7 +48,8 @@ std::optional<ObjectVisual::Loaded> ObjectVisual::takePrepared(const std::string
 bool ObjectVisual::onPrepare(softbody_msgs::LoadObject::Request& request,
                              softbody_msgs::LoadObject::Response& response) try {
   giveWay();
-  Loaded loaded = load(request.object);
+  std::optional<Loaded> loaded;
+  if (!request.object.empty()) loaded = load(request.object);
   const std::lock_guard<std::mutex> lock(prepared_mutex_);
   prepared_ = std::move(loaded);
   response.success = 1;

@@ -15,7 +15,7 @@ namespace softbody {
 
 /// The visual mesh of the object that the parameter ~object names. The simulator changes the parameter when
 /// it loads another object. Before, it calls the service ~prepare_object, which loads the mesh in a thread of
-/// its own.
+/// its own. After a refusal it calls it with an empty object: the mesh is forgotten.
 class ObjectVisual {
  public:
   /// @param object the parameter's value at the start. @throw std::invalid_argument if a file of the object

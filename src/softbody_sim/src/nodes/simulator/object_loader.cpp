@@ -65,13 +65,18 @@ std::uint32_t ObjectLoader::load(const std::string& object) {
     throw std::invalid_argument(fmt::format("object is '{}'; allowed: an absolute path", object));
   ROS_INFO_STREAM("loading " << object << "; the present object goes on");
   SimulatedObject loaded = loadSimulatedObject(object, scope_);
-  const BodySurface surface = BodySurface(loaded.model.visual, loaded.model.volume).in(loaded.model.volume);
+  BodySurface surface = BodySurface(loaded.model.visual, loaded.model.volume).in(loaded.model.volume);
   for (const PinRegion& pin : loaded.pins) PinnedVertices(pin, surface, loaded.model.volume.rest_vertices);
   askSurface(object);
-  const std::uint32_t revision = inNode<std::uint32_t>(owner_.revision) + 1;
-  loaded.model.volume.revision = revision;
-  use(make(loaded, inNode<SimulatorConfig>(owner_.config)), object);
-  return revision;
+  try {
+    const std::uint32_t revision = inNode<std::uint32_t>(owner_.revision) + 1;
+    loaded.model.volume.revision = revision;
+    use(make(loaded, std::move(surface), inNode<SimulatorConfig>(owner_.config)), object);
+    return revision;
+  } catch (...) {
+    letSurfaceForget();
+    throw;
+  }
 }
 
 /// A graph may have no surface.
@@ -84,11 +89,16 @@ void ObjectLoader::askSurface(const std::string& object) {
     throw std::invalid_argument(fmt::format("{}: {}", surface_.getService(), call.response.message));
 }
 
-std::shared_ptr<NextObject> ObjectLoader::make(const SimulatedObject& object,
+/// It keeps the mesh until then, and may have ended.
+void ObjectLoader::letSurfaceForget() {
+  softbody_msgs::LoadObject nothing;
+  if (surface_.exists()) surface_.call(nothing);
+}
+
+std::shared_ptr<NextObject> ObjectLoader::make(const SimulatedObject& object, BodySurface surface,
                                                const SimulatorConfig& config) const {
-  auto next = std::make_shared<NextObject>(NextObject{{object.model.volume, object.model.material, config},
-                                                      object.pins,
-                                                      {object.model.visual, object.model.volume}});
+  auto next = std::make_shared<NextObject>(
+      NextObject{{object.model.volume, object.model.material, config}, object.pins, std::move(surface)});
   next->simulator.prepare();
   next->simulator.setBody(ros::WallTime::now().toNSec());
   return next;

@@ -22,7 +22,7 @@ namespace softbody {
 struct NextObject {
   Simulator simulator;
   std::vector<PinRegion> pins;
-  BodySurface surface;  ///< which the pins are meant about
+  BodySurface surface;  ///< in the tets of the simulator; the pins are meant about it
 };
 
 /// The service ~load_object: another object without a restart. Object and simulator are made in a thread of
@@ -48,7 +48,9 @@ class ObjectLoader {
   bool onLoad(softbody_msgs::LoadObject::Request& request, softbody_msgs::LoadObject::Response& response);
   std::uint32_t load(const std::string& object);
   void askSurface(const std::string& object);
-  std::shared_ptr<NextObject> make(const SimulatedObject& object, const SimulatorConfig& config) const;
+  void letSurfaceForget();
+  std::shared_ptr<NextObject> make(const SimulatedObject& object, BodySurface surface,
+                                   const SimulatorConfig& config) const;
   void use(const std::shared_ptr<NextObject>& next, const std::string& object);
   template <typename Result>
   Result inNode(std::function<Result()> function);
