@@ -139,7 +139,7 @@ void SurfaceEditor::onVolumeEdits(const EditedBody& theirs) {
 }
 
 void SurfaceEditor::adopt(const EditedBody& theirs) {
-  const bool other_visual = body_ && body_->edits().body != theirs.edits.body && visual_->update();
+  const bool other_visual = (!body_ || body_->edits().body != theirs.edits.body) && visual_->update();
   const bool same_rest = body_ && !other_visual && sameRestBody(body_->uncutVolume(), theirs.uncut);
   const bool same_body = same_rest && body_->edits().body == theirs.edits.body;
   if (same_rest) {
