@@ -93,7 +93,7 @@ void BodySubscriber::adoptTopologies() {
   if (surface_->topology.revision != revision) return;
   const bool edited = tracker_->isEdit(volume_->topology, surface_->topology);
   if (edited && newest_state_ && newest_state_->mesh.revision != revision) return;
-  if (!edited && tracker_->ready()) on_other_body_();
+  if (!edited) on_other_body_();
   tracker_->setTopologies(volume_->topology, surface_->topology);
   adopted_volume_ = volume_->message;
   adopted_surface_ = surface_->message;

@@ -20,7 +20,8 @@ namespace softbody {
 /// state.
 class BodySubscriber {
  public:
-  /// @param tracker must outlive this. @param on_other_body called before the tracker gets another body.
+  /// @param tracker must outlive this. @param on_other_body called before the tracker gets its first body, or
+  /// another one.
   BodySubscriber(ros::NodeHandle handle, BodyTracker* tracker, std::function<void()> on_other_body);
 
   /// The newest state with the tracker's topology; nullptr before the first one, if it is in another frame,

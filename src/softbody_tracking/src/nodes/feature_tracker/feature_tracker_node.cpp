@@ -46,7 +46,7 @@ FeatureTrackerNode::FeatureTrackerNode(const ros::NodeHandle& handle, ros::NodeH
                                        const FeatureTrackerOptions& options)
     : options_(options),
       output_frame_(options.output_frame),
-      tracker_(options.tracker, loadPicture(options)),
+      tracker_(options.tracker),
       publisher_(handle,
                  output_frame_.claim(ownFrame(options.body_frame, "body_frame", private_handle, "softbody"))),
       stamps_(handle.resolveName(topics::kRgbRect)),
