@@ -1,6 +1,5 @@
 #include <pluginlib/class_list_macros.hpp>
 
-#include "nodes/model/model_server.h"
 #include "nodes/simulator/simulator_node.h"
 #include "nodes/surface/surface_node.h"
 #include "softbody_common/ros/node_nodelet.h"
@@ -9,10 +8,8 @@ namespace softbody {
 
 class SimulatorNodelet : public NodeNodelet<SimulatorNode> {};
 class SurfaceNodelet : public NodeNodelet<SurfaceNode> {};
-class ModelServerNodelet : public NodeNodelet<ModelServer> {};
 
 }  // namespace softbody
 
 PLUGINLIB_EXPORT_CLASS(softbody::SimulatorNodelet, nodelet::Nodelet)
 PLUGINLIB_EXPORT_CLASS(softbody::SurfaceNodelet, nodelet::Nodelet)
-PLUGINLIB_EXPORT_CLASS(softbody::ModelServerNodelet, nodelet::Nodelet)

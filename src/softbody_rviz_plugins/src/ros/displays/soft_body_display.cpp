@@ -243,7 +243,7 @@ std::string SoftBodyDisplay::objectYaml() const {
 FileScope SoftBodyDisplay::objectScope() const {
   bool anywhere = false;
   update_nh_.getParam(parentOf(update_nh_, *topology_topic_) + "/allow_outside", anywhere);
-  return anywhere ? FileScope::kAnywhere : FileScope::kOwnFolder;
+  return fileScope(anywhere);
 }
 
 std::string SoftBodyDisplay::topologyText() const {
