@@ -3,6 +3,7 @@
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Count_stop_predicate.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Edge_length_cost.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Midpoint_placement.h>
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
 
 #include <Eigen/Geometry>
@@ -73,11 +74,13 @@ struct Placement {
     return true;
   }
 
+  /// Boost's optional up to CGAL 5, that of the standard library from CGAL 6 on.
   template <typename Profile>
-  boost::optional<Kernel::Point_3> operator()(const Profile& profile) const {
+  auto operator()(const Profile& profile) const {
+    decltype(simplification::Midpoint_placement<Surface>()(profile)) placed;
     const std::optional<Eigen::Vector3d> x = place(profile);
-    if (!x || !keepsShape(profile, *x)) return boost::none;
-    return Kernel::Point_3(x->x(), x->y(), x->z());
+    if (x && keepsShape(profile, *x)) placed = Kernel::Point_3(x->x(), x->y(), x->z());
+    return placed;
   }
 };
 

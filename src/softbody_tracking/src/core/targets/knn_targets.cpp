@@ -44,15 +44,15 @@ void KnnTargets::bind(const std::vector<MapFeature>& features, const TetTopology
   const KdTree tree(3, std::cref(positions));
   const std::vector<MaterialPoint> places = vertexPlaces(volume);
   const std::set<int> surface_vertices(volume.surface.data(), volume.surface.data() + volume.surface.size());
-  const auto wanted = static_cast<std::size_t>(std::max(config_.max_neighbors, kRotationNeighbors));
+  const auto wanted = std::min(features.size(),
+                               static_cast<std::size_t>(std::max(config_.max_neighbors, kRotationNeighbors)));
   for (int v : surface_vertices) {
     BoundVertex bound{places[v], vertices.row(v), {}, {}};
     std::vector<Eigen::Index> indices(wanted);
     std::vector<double> squared(wanted);
-    const std::size_t found =
-        tree.index->knnSearch(bound.reference.data(), wanted, indices.data(), squared.data());
+    tree.query(bound.reference.data(), wanted, indices.data(), squared.data());
     std::vector<double> distances;
-    for (std::size_t n = 0; n < found; ++n) {
+    for (std::size_t n = 0; n < wanted; ++n) {
       bound.wider_ids.push_back(features[indices[n]].id);
       const double distance = std::sqrt(squared[n]);
       const bool near = distance <= config_.radius_m && static_cast<int>(n) < config_.max_neighbors;
