@@ -28,8 +28,7 @@ double distanceToTriangle(const Eigen::Vector3d& p, const Eigen::Vector3d& a, co
   return std::min({distanceToSegment(p, a, b), distanceToSegment(p, b, c), distanceToSegment(p, c, a)});
 }
 
-/// The point of the first diagonal of a quadrilateral that is nearest to the second one, as a vector between
-/// them: how far a flip moves the surface.
+/// Distance between the lines of the two diagonals of a quadrilateral [m]: how far a flip moves the surface.
 double distanceOfDiagonals(const CutComplex& complex, const std::array<int, 4>& corners) {
   const auto& [a, b, c, d] = corners;
   const Eigen::Vector3d across = (complex.at(b) - complex.at(a)).cross(complex.at(d) - complex.at(c));
@@ -82,6 +81,18 @@ int nearestAdded(const CutComplex& complex, const ComplexEdit& edit, Sheet sheet
   return nearest;
 }
 
+/// Calls visit(sheet, point) for the middles of the edges at the vertex that an edit removes: a sharp edge
+/// can be far from the new triangles between its ends.
+template <class Visit>
+void forEachMiddle(const CutComplex& complex, const ComplexEdit& edit, const Visit& visit) {
+  for (const int t : edit.removed) {
+    const ComplexTriangle& triangle = complex.triangles[t];
+    const int k = triangle.cornerOf(edit.gone);
+    if (k < 0) continue;
+    visit(triangle.sheet, 0.5 * (complex.at(edit.gone) + complex.at(triangle.corners[(k + 1) % 3])));
+  }
+}
+
 /// Calls visit(sheet, point) for the places that must stay near to the new triangles.
 template <class Visit>
 void forEachSample(const CutComplex& complex, const ComplexEdit& edit, const Visit& visit) {
@@ -90,9 +101,10 @@ void forEachSample(const CutComplex& complex, const ComplexEdit& edit, const Vis
       visit(complex.triangles[t].sheet, sample);
   }
   if (edit.gone >= 0 && !complex.vertices[edit.gone].is_new) {
-    for (const Sheet sheet : {Sheet::kSkin, Sheet::kFill}) {
+    for (const Sheet sheet : kSheets) {
       if (complex.hasSheet(edit.gone, sheet)) visit(sheet, complex.at(edit.gone));
     }
+    forEachMiddle(complex, edit, visit);
   }
   if (edit.flipped && distanceOfDiagonals(complex, *edit.flipped) > 0.0) {
     visit(complex.triangles[edit.removed.front()].sheet, crossingOfDiagonals(complex, *edit.flipped));

@@ -7,7 +7,8 @@
 namespace softbody {
 
 /// Whether the complex stays near to what it was before remeshing, and no triangle turns over: the places of
-/// removed vertices, kept as samples, are near to the surface, and those of lines near to the lines.
+/// removed vertices and the middles of their edges, kept as samples, are near to the surface, and those of
+/// lines near to the lines.
 /// @param distance at most [m].
 bool staysNear(const CutComplex& complex, const ComplexEdit& edit, double distance);
 
