@@ -3,7 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <Eigen/SVD>
-#include <cassert>
+#include <stdexcept>
 
 #include "tets/tet_shape.h"
 
@@ -77,7 +77,8 @@ FemElasticity::FemElasticity(const TetTopology& topology, Elasticity elasticity,
       elements_.back().springs = springsOf(topology.rest_vertices, tet, elements_.back().lame);
   }
   if (!hasPatches(materials)) return;
-  assert(elasticity != Elasticity::kSprings);
+  if (elasticity == Elasticity::kSprings)
+    throw std::invalid_argument("the strains of springs cannot be smoothed");
   addPatches(topology, materials);
 }
 

@@ -15,7 +15,8 @@ namespace softbody {
 /// it uses strains smoothed around the vertices, which reduces locking; springs cannot be smoothed.
 class FemElasticity {
  public:
-  /// @throw std::invalid_argument if the volume of a rest tet is not positive.
+  /// @throw std::invalid_argument if the volume of a rest tet is not positive, or the strains of springs are
+  /// smoothed.
   FemElasticity(const TetTopology& topology, Elasticity elasticity, const ElasticMaterials& materials);
   FemElasticity(const TetTopology& topology, Elasticity elasticity, const Lame& lame,
                 const Smoothing& smoothing = {})
