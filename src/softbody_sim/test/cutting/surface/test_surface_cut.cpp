@@ -167,7 +167,7 @@ TEST(SurfaceCut, NamesParentsAndInterpolatesTextureCoordinates) {
     EXPECT_EQ(cut.mesh.rest_vertices.row(static_cast<Eigen::Index>(v)), sponge.rest_vertices.row(source));
   }
   for (Eigen::Index t = 0; t < cut.mesh.triangles.rows(); ++t) {
-    const bool is_wall = cut.triangle_sources[static_cast<std::size_t>(t)] < 0;
+    const bool is_wall = cut.on_new_wall[static_cast<std::size_t>(t)];
     EXPECT_EQ(cut.mesh.cut[static_cast<std::size_t>(t)], is_wall);
     for (int k = 0; k < 3 && !is_wall; ++k) {
       const Eigen::RowVector3d expected = textureAt(cut.mesh.rest_vertices.row(cut.mesh.triangles(t, k)));

@@ -131,7 +131,7 @@ void SidePlacement::seedUnplacedPieces() {
 std::vector<SidePlacement::Link> SidePlacement::linksToUnplaced(bool over_new_walls) const {
   std::vector<Link> links;
   for (Eigen::Index t = 0; t < mesh_.triangles.rows(); ++t) {
-    if (!over_new_walls && surface_.triangle_sources[at(t)] < 0) continue;
+    if (!over_new_walls && surface_.on_new_wall[at(t)]) continue;
     for (int k = 0; k < 3; ++k) {
       const int to = mesh_.triangles(t, k);
       if (places_[at(to)].tet >= 0) continue;

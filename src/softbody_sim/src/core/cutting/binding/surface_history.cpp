@@ -53,7 +53,7 @@ SurfaceCut SurfaceHistory::uncutPreview(std::uint32_t stroke) const {
           "",
           mesh,
           ownSources(mesh.rest_vertices.rows()),
-          ownSources(mesh.triangles.rows()),
+          std::vector<bool>(static_cast<std::size_t>(mesh.triangles.rows())),
           {}};
 }
 

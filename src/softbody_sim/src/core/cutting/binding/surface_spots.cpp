@@ -9,7 +9,7 @@ namespace softbody {
 namespace {
 
 // Relative to the diagonal of the surface.
-constexpr double kFarthest = 1e-3;
+constexpr double kFarthest = 1e-3;  // two surfaces, each within kRemeshDistance of the one before the cut
 constexpr double kRounding = 1e-6;
 constexpr int kCells = 32;  ///< of the grid, per axis
 

@@ -10,7 +10,7 @@ namespace softbody {
 struct CutFill {
   std::vector<Eigen::Vector3d> points;
   TriangleList triangles;
-  std::vector<int> facets;  ///< per triangle
+  std::vector<int> facets;  ///< per triangle; -1 after remeshing
   std::vector<int>
       curve;  ///< per half-edge: the half-edge of the surface that the curve follows there; else -1
   std::vector<int>

@@ -78,7 +78,7 @@ bool Improvement::improve(int t) {
   for (int k = 0; k < 3; ++k) freedoms_[k] = freedomOf(complex_, complex_.triangles[t].corners[k]);
   considerFlips(t);
   considerCollapses(t);
-  if (!done()) considerMoves(t);
+  considerMoves(t);
   return best_shape_ > 0.0;
 }
 
@@ -100,7 +100,7 @@ void Improvement::considerCollapses(int t) {
   const std::array<int, 3> corners = complex_.triangles[t].corners;
   for (int k = 0; k < 3 && !done(); ++k) {
     for (const int other : {(k + 1) % 3, (k + 2) % 3}) {
-      if (describeCollapse(complex_, corners[k], freedoms_[k], corners[other], &edit_)) consider();
+      if (!done() && describeCollapse(complex_, corners[k], freedoms_[k], corners[other], &edit_)) consider();
     }
   }
   for (int k = 0; k < 3 && !done(); ++k) {
@@ -111,17 +111,17 @@ void Improvement::considerCollapses(int t) {
 
 void Improvement::considerMoves(int t) {
   const std::array<int, 3> corners = complex_.triangles[t].corners;
-  for (int k = 0; k < 3; ++k) {
+  for (int k = 0; k < 3 && !done(); ++k) {
     const int v = corners[k];
     if (freedoms_[k].kind == Freedom::Kind::kAnywhere) {
       const Eigen::Vector3d way = middleAround(v) - complex_.at(v);
       for (const double share : {1.0, 0.5}) {
-        if (describeMove(complex_, v, complex_.at(v) + share * way, &edit_)) consider();
+        if (!done() && describeMove(complex_, v, complex_.at(v) + share * way, &edit_)) consider();
       }
     } else if (freedoms_[k].kind == Freedom::Kind::kAlongLine) {
       for (const int end : freedoms_[k].ends) {
         for (const double share : kShares) {
-          if (describeSlide(complex_, v, freedoms_[k], end, share, &edit_)) consider();
+          if (!done() && describeSlide(complex_, v, freedoms_[k], end, share, &edit_)) consider();
         }
       }
     }

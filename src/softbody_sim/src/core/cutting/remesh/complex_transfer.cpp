@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <map>
 
+#include "cutting/split/cut_refused.h"
+
 namespace softbody {
 namespace {
 
-constexpr int kCompleteRings = 2;      ///< edges from the curve up to which all triangles are in the complex
-constexpr int kLooseRings = 1;         ///< edges from the curve up to which vertices may leave
-constexpr double kSameTexture = 1e-6;  ///< of texture coordinates, well above rounding
+constexpr int kCompleteRings = 2;  ///< edges from the curve up to which all triangles are in the complex
+constexpr int kLooseRings = 1;     ///< edges from the curve up to which vertices may leave
 constexpr int kUnknown = -1, kSeveral = -2;
 
 class Extraction {
@@ -108,9 +109,7 @@ Line Extraction::lineOf(int h) const {
   const int mate = surface_.mates[h];
   if (surface_.curve[h] >= 0 || surface_.curve[mate] >= 0) return Line::kCurve;
   if (surface_.texture.empty()) return Line::kNone;
-  const auto differ = [this](int a, int b) {
-    return (surface_.texture[a] - surface_.texture[b]).cwiseAbs().maxCoeff() > kSameTexture;
-  };
+  const auto differ = [this](int a, int b) { return !sameTexture(surface_.texture[a], surface_.texture[b]); };
   return differ(h, nextHalfEdge(mate)) || differ(nextHalfEdge(h), mate) ? Line::kBorder : Line::kNone;
 }
 
@@ -268,7 +267,7 @@ void Writing::joinFill(const std::vector<const ComplexTriangle*>& triangles) {
   for (const int h : halfEdgesOfCurve(surface_)) {
     curve[{startOf(surface_.triangles, h), endOf(surface_.triangles, h)}] = h;
   }
-  fill_.facets.assign(triangles.size(), 0);
+  fill_.facets.assign(triangles.size(), -1);
   fill_.curve.assign(3 * triangles.size(), -1);
   fill_.mates.assign(3 * triangles.size(), -1);
   std::vector<int> inner;
@@ -281,7 +280,11 @@ void Writing::joinFill(const std::vector<const ComplexTriangle*>& triangles) {
       fill_.curve[h] = triangle.curve[k];
     } else {
       const auto found = curve.find({skin_[triangle.corners[k]], skin_[triangle.corners[(k + 1) % 3]]});
-      if (found != curve.end()) fill_.curve[h] = found->second;
+      if (found != curve.end()) {
+        fill_.curve[h] = found->second;
+      } else if (triangle.lines[k] == Line::kCurve) {
+        throw CutRefused("the remeshed faces do not reach the whole curve");
+      }
     }
   }
   pairHalfEdges(fill_.triangles, inner, &fill_.mates);

@@ -13,6 +13,7 @@ namespace softbody {
 CutComplex complexAround(const SplitSurface& surface, const CutFill& fill, const std::vector<bool>& is_cut);
 
 /// Replaces the skin and the fill by those of a complex that was made from them.
+/// @throw CutRefused if the new fill does not reach the whole curve.
 void writeBack(const CutComplex& complex, SplitSurface* surface, CutFill* fill);
 
 }  // namespace softbody

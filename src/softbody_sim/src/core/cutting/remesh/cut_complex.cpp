@@ -40,7 +40,7 @@ bool CutComplex::hasSheet(int vertex, Sheet sheet) const {
                      [&](int t) { return triangles[t].sheet == sheet; });
 }
 
-FewInts<4> CutComplex::lineEnds(int vertex, Sheet sheet) const {
+FewInts<4> CutComplex::lineEnds(int vertex, Sheet sheet, Line least) const {
   FewInts<4> ends;
   const auto add = [&ends](int end) {
     if (!ends.contains(end)) ends.add(end);
@@ -49,8 +49,8 @@ FewInts<4> CutComplex::lineEnds(int vertex, Sheet sheet) const {
     const ComplexTriangle& triangle = triangles[t];
     if (triangle.sheet != sheet) continue;
     const int k = triangle.cornerOf(vertex), before = (k + 2) % 3;
-    if (triangle.onLine(k)) add(triangle.corners[(k + 1) % 3]);
-    if (triangle.onLine(before)) add(triangle.corners[before]);
+    if (triangle.lines[k] >= least) add(triangle.corners[(k + 1) % 3]);
+    if (triangle.lines[before] >= least) add(triangle.corners[before]);
   }
   return ends;
 }

@@ -52,7 +52,7 @@ struct ComplexTriangle {
   int place = -1;                          ///< of the skin: its number in the split surface; -1: new
   bool is_fixed = false;                   ///< it must stay
   double shape = 0.0;                      ///< sine of the least angle
-  std::vector<Eigen::Vector3d> samples{};  ///< places of removed vertices that are nearest to it [m]
+  std::vector<Eigen::Vector3d> samples{};  ///< places of removed vertices and edges, nearest to it [m]
 
   bool used() const { return corners[0] >= 0; }
   bool onLine(int k) const { return lines[k] != Line::kNone; }
@@ -88,8 +88,8 @@ struct CutComplex {
   FewInts<4> trianglesAt(int a, int b, Sheet sheet) const;
   bool adjacent(int a, int b, Sheet sheet) const;
   bool hasSheet(int vertex, Sheet sheet) const;
-  /// The other ends of the lines at a vertex.
-  FewInts<4> lineEnds(int vertex, Sheet sheet) const;
+  /// The other ends of the lines at a vertex. @param least kCurve: only of the curve.
+  FewInts<4> lineEnds(int vertex, Sheet sheet, Line least = Line::kBorder) const;
   /// Twice the area times the normal.
   Eigen::Vector3d normalOf(const ComplexTriangle& triangle) const;
 };

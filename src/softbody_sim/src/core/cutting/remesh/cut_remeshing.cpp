@@ -7,7 +7,7 @@
 namespace softbody {
 namespace {
 
-constexpr double kGoal = 0.42;  // sine of 25 degrees
+constexpr double kGoal = 0.4226;  // sine of 25 degrees
 
 }  // namespace
 

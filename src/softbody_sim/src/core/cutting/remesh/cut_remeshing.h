@@ -10,6 +10,7 @@ namespace softbody {
 /// Texture coordinates are interpolated. Seams of the texture stay, and so do the faces of earlier cuts.
 /// @param is_cut per triangle of the mesh: it fills an earlier cut.
 /// @param distance by which skin, curve and fill may move [m].
+/// @throw CutRefused if the new fill does not reach the whole curve.
 void remeshCut(const std::vector<bool>& is_cut, double distance, SplitSurface* surface, CutFill* fill);
 
 }  // namespace softbody

@@ -45,7 +45,7 @@ bool linesStayApart(const CutComplex& complex, int vertex, int neighbour, Sheet 
 /// An end of the curve, where the body does not open. Two of them must not be joined on the skin: the faces
 /// of the cut join them, too.
 bool endsCurve(const CutComplex& complex, int vertex) {
-  return complex.lineEnds(vertex, Sheet::kSkin).size() == 1;
+  return complex.lineEnds(vertex, Sheet::kSkin, Line::kCurve).size() == 1;
 }
 
 bool joinsEnds(const CutComplex& complex, int vertex, const std::vector<int>& triangles) {

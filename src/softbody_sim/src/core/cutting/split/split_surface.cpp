@@ -238,6 +238,11 @@ std::vector<int> halfEdgesOfCurve(const SplitSurface& surface) {
   return half_edges;
 }
 
+bool sameTexture(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  constexpr double kSame = 1e-6;  // well above rounding
+  return (a - b).cwiseAbs().maxCoeff() < kSame;
+}
+
 SplitSurface splitAlong(const CutCurve& curve, const MeshTopology& mesh, TriangleList triangles,
                         const std::vector<int>& mates) {
   SplitSurface surface;

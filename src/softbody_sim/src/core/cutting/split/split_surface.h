@@ -24,6 +24,9 @@ struct SplitSurface {
   bool used(int triangle) const { return triangles[triangle][0] >= 0; }
 };
 
+/// Whether texture coordinates at one vertex are the same, up to rounding: no seam is between them.
+bool sameTexture(const Eigen::Vector2d& a, const Eigen::Vector2d& b);
+
 /// The half-edges that the curve runs along, ascending.
 std::vector<int> halfEdgesOfCurve(const SplitSurface& surface);
 

@@ -74,15 +74,14 @@ void flipTexture(int h, double along, SplitSurface* surface) {
 /// Gives the corners at the start of a half-edge the texture coordinates of its end. Corners on another side
 /// of a seam keep theirs.
 void moveTexture(int half_edge, SplitSurface* surface) {
-  constexpr double kSameTexture = 1e-6;  // well above rounding
   const int mate = surface->mates[half_edge];
   auto& texture = surface->texture;
   const Eigen::Vector2d from = texture[half_edge], from_mate = texture[nextHalfEdge(mate)],
                         to = texture[nextHalfEdge(half_edge)], to_mate = texture[mate];
   for (const int h : starOf(*surface, half_edge)) {
-    if ((texture[h] - from).norm() < kSameTexture) {
+    if (sameTexture(texture[h], from)) {
       texture[h] = to;
-    } else if ((texture[h] - from_mate).norm() < kSameTexture) {
+    } else if (sameTexture(texture[h], from_mate)) {
       texture[h] = to_mate;
     }
   }

@@ -102,7 +102,7 @@ void Compaction::writeTriangles() {
   const auto count = static_cast<std::size_t>(triangle_count_);
   mesh.triangles.resize(triangle_count_, 3);
   mesh.cut.resize(count);
-  cut_.triangle_sources.resize(count);
+  cut_.on_new_wall.resize(count);
   ManifoldMesh& manifold = cut_.manifold;
   manifold.triangles.resize(count);
   manifold.mates.resize(3 * count);
@@ -115,9 +115,8 @@ void Compaction::writeTriangles() {
       manifold.mates[3 * row + k] = 3 * triangles_[mate / 3] + mate % 3;
     }
     const bool of_surface = t < surface_.triangles.size();
-    const int source = of_surface ? surface_.sources[t] : -1;
-    cut_.triangle_sources[row] = source;
-    mesh.cut[row] = of_surface ? before_.cut[source] : true;
+    cut_.on_new_wall[row] = !of_surface;
+    mesh.cut[row] = !of_surface || before_.cut[surface_.sources[t]];
   }
   mesh.triangle_pieces = numberPieces(manifold.triangles.size(), manifold.mates);
 }

@@ -47,9 +47,8 @@ void roundNewVertices(SplitSurface* surface) {
 SurfaceCut withoutCut(const MeshTopology& mesh, CutOutcome outcome, const std::string& reason) {
   SurfaceCut result{outcome, reason, mesh, {}, {}, {}};
   result.vertex_sources.resize(static_cast<std::size_t>(mesh.rest_vertices.rows()));
-  result.triangle_sources.resize(static_cast<std::size_t>(mesh.triangles.rows()));
   std::iota(result.vertex_sources.begin(), result.vertex_sources.end(), 0);
-  std::iota(result.triangle_sources.begin(), result.triangle_sources.end(), 0);
+  result.on_new_wall.resize(static_cast<std::size_t>(mesh.triangles.rows()));
   return result;
 }
 

@@ -19,9 +19,9 @@ struct SurfaceCut {
   CutOutcome outcome = CutOutcome::kMissed;
   std::string reason;  ///< why the mesh was not cut
   MeshTopology mesh;
-  std::vector<int> vertex_sources;    ///< per vertex, its earlier vertex or the original of the copy; -1: new
-  std::vector<int> triangle_sources;  ///< per triangle, the earlier one at its place; -1: on a new wall
-  ManifoldMesh manifold;              ///< form of the mesh, if it is cut
+  std::vector<int> vertex_sources;  ///< per vertex, its earlier vertex or the original of the copy; -1: new
+  std::vector<bool> on_new_wall;    ///< per triangle: this cut made it
+  ManifoldMesh manifold;            ///< form of the mesh, if it is cut
 };
 
 /// Cuts a closed triangle mesh along a patch. Triangles are divided along the curve of intersection. The mesh
