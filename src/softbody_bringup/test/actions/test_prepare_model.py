@@ -97,7 +97,8 @@ class PrepareModel(unittest.TestCase):
                               ({"length": -1}, "length is -1"), ({"scale": float("nan")}, "scale is nan"),
                               ({"thickness": -0.1}, "thickness is -0.1"), ({"triangles": 3}, "triangles is 3"),
                               ({"cage_vertices": 3}, "cage_vertices is 3"), ({"shell": "biggest"}, "shell is 'biggest'"),
-                              ({"shell": "0"}, "shell is '0'"),
+                              ({"shell": "0"}, "shell is '0'"), ({"shell": "101"}, "a number from 1 to 100"),
+                              ({"shell": "9" * 30}, "a number from 1 to 100"),
                               ({"output": f"{self.folder}/foreign"}, "was not made by prepare_model")):
             state, result = self.start(**{**good, **change})
             self.assertEqual((state, result.object, result.verdict), (GoalStatus.ABORTED, "", ""), change)

@@ -30,6 +30,8 @@ double lengthOf(const std::string& text) {
   return number * softbody::metresPer(unit);
 }
 
+CLI::Range rangeOf(const softbody::AllowedCount& allowed) { return CLI::Range(allowed.least, allowed.most); }
+
 /// Size, kind and choice of the body.
 void addBodyOptions(CLI::App* app, softbody::ModelSource* source) {
   CLI::Option* unit = app->add_option("--unit", source->unit, "unit of the mesh")
@@ -50,10 +52,10 @@ void addBodyOptions(CLI::App* app, softbody::ModelSource* source) {
                   "which body of a file with several: a number of the list, largest or all; default: the "
                   "largest if the "
                   "others are below 5 % of the volume")
-      ->check(CLI::IsMember({"largest", "all"}) | CLI::Range(1, 100));
+      ->check(CLI::IsMember({"largest", "all"}) | rangeOf(softbody::kShellNumbers));
   app->add_option("--simplify", source->body.triangles,
                   "reduce the visual mesh to about this number of triangles")
-      ->check(CLI::Range(100, 10000000));
+      ->check(rangeOf(softbody::kTriangleCounts));
 }
 
 }  // namespace
@@ -72,7 +74,7 @@ int main(int argc, char** argv) {
   addBodyOptions(&app, &source);
   app.add_option("--cage-vertices", settings.cage_vertices,
                  "approximate number of cage vertices; default: chosen from the shape")
-      ->check(CLI::Range(20, 20000));
+      ->check(rangeOf(softbody::kCageVertexCounts));
   app.footer(
       "Exit codes: 0 done; 1 the mesh could not be processed; 2 wrong usage; 3 done, but the verdict is "
       "bad.");

@@ -16,6 +16,15 @@ const char* nameOf(Verdict verdict);
 /// Share of prepareModel()'s progress at which the model is made and the report begins.
 constexpr double kModelShare = 0.8;
 
+/// Lowest and highest number that a user of prepareModel() may ask for.
+struct AllowedCount {
+  int least, most;
+};
+
+constexpr AllowedCount kShellNumbers{1, 100};           ///< of BodyOptions::shell
+constexpr AllowedCount kTriangleCounts{100, 10000000};  ///< of BodyOptions::triangles
+constexpr AllowedCount kCageVertexCounts{20, 20000};    ///< of VolumeSettings::cage_vertices
+
 /// The user's mesh.
 struct ModelSource {
   std::string mesh;        ///< OBJ, PLY, STL or OFF

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cstdint>
+#include <cstdlib>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
@@ -10,9 +11,6 @@
 namespace softbody {
 namespace {
 
-// As the options of the tool prepare_model.
-constexpr std::uint32_t kFewestTriangles = 100, kMostTriangles = 10'000'000;
-constexpr std::uint32_t kFewestCageVertices = 20, kMostCageVertices = 20'000;
 constexpr double kLargest = 1e6;
 
 void requireAbsolute(const char* field, const std::string& path) {
@@ -26,19 +24,22 @@ double measure(const char* field, double value) {
       fmt::format("{} is {}; allowed: 0 (not given) or a number above 0", field, value));
 }
 
-int count(const char* field, std::uint32_t value, std::uint32_t fewest, std::uint32_t most) {
-  if (value == 0 || (value >= fewest && value <= most)) return static_cast<int>(value);
-  throw std::invalid_argument(
-      fmt::format("{} is {}; allowed: 0 (not given) or {} to {}", field, value, fewest, most));
+bool isAllowed(std::int64_t value, const AllowedCount& allowed) {
+  return value >= allowed.least && value <= allowed.most;
 }
 
-/// A number has at most two digits.
+int count(const char* field, std::uint32_t value, const AllowedCount& allowed) {
+  if (value == 0 || isAllowed(value, allowed)) return static_cast<int>(value);
+  throw std::invalid_argument(
+      fmt::format("{} is {}; allowed: 0 (not given) or {} to {}", field, value, allowed.least, allowed.most));
+}
+
 void requireShell(const std::string& shell) {
   if (shell.empty() || shell == "largest" || shell == "all") return;
-  const bool is_number = shell.size() <= 2 && shell.find_first_not_of("0123456789") == std::string::npos;
-  if (is_number && std::stoi(shell) > 0) return;
-  throw std::invalid_argument(
-      fmt::format("shell is '{}'; allowed: largest, all, or a number from 1 to 99", shell));
+  const bool is_number = shell.find_first_not_of("0123456789") == std::string::npos;
+  if (is_number && isAllowed(std::strtol(shell.c_str(), nullptr, 10), kShellNumbers)) return;
+  throw std::invalid_argument(fmt::format("shell is '{}'; allowed: largest, all, or a number from {} to {}",
+                                          shell, kShellNumbers.least, kShellNumbers.most));
 }
 
 void requireOneSize(const softbody_msgs::PrepareModelGoal& goal) {
@@ -60,13 +61,13 @@ ModelSource sourceOf(const softbody_msgs::PrepareModelGoal& goal) {
   source.body.length_m = measure("length", goal.length);
   source.body.thickness = measure("thickness", goal.thickness);
   source.body.shell = goal.shell;
-  source.body.triangles = count("triangles", goal.triangles, kFewestTriangles, kMostTriangles);
+  source.body.triangles = count("triangles", goal.triangles, kTriangleCounts);
   return source;
 }
 
 VolumeSettings settingsOf(const softbody_msgs::PrepareModelGoal& goal) {
   VolumeSettings settings;
-  settings.cage_vertices = count("cage_vertices", goal.cage_vertices, kFewestCageVertices, kMostCageVertices);
+  settings.cage_vertices = count("cage_vertices", goal.cage_vertices, kCageVertexCounts);
   settings.use_cache = false;
   return settings;
 }
