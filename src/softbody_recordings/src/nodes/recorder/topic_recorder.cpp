@@ -6,7 +6,7 @@
 namespace softbody {
 namespace {
 
-constexpr std::uint32_t kQueue = 100;       // messages of a topic, while the disk is slow
+constexpr std::uint32_t kAll = 0;           // messages wait in memory while the disk is slow; none is lost
 const ros::WallDuration kLongestWait(0.1);  // for the next message
 
 }  // namespace
@@ -20,7 +20,7 @@ TopicRecorder::TopicRecorder(ros::NodeHandle node, const std::set<std::string>& 
     const boost::function<void(const Event&)> on_event = [this, topic](const Event& event) {
       write(topic, event);
     };
-    subscribers_.push_back(node.subscribe<const Event&>(topic, kQueue, on_event));
+    subscribers_.push_back(node.subscribe<const Event&>(topic, kAll, on_event));
   }
 }
 
