@@ -10,12 +10,15 @@ export HOME := $(CURDIR)/catkin_ws/logs/home
 $(shell mkdir -p $(HOME))
 endif
 
-.PHONY: build test shared-data recordings meshes cuts demo bench fuzz evaluate starts latency scans figures paper validation growth
+.PHONY: build development test shared-data recordings meshes cuts demo bench fuzz evaluate starts latency scans figures paper validation growth
 .PHONY: sanitize soak error-table parameter-tables api tidy format
 .PHONY: clean help dependencies
 
 build: dependencies  ## build everything; afterwards: . catkin_ws/devel/setup.bash
 	scripts/build
+
+development: build  ## build benchmarks and the other programs that only make targets use
+	scripts/build development
 
 test: dependencies  ## build and run all checks: unit tests, rostests, launch files, package borders, install space, lint, format
 	scripts/build
@@ -45,10 +48,10 @@ cuts: dependencies  ## cut sponge, torus, spot and the toy of ../shared/data 10,
 demo: build  ## track a virtual sponge: in rviz with a display, otherwise with pictures and figures in demo_output/
 	catkin_ws/devel/env.sh rosrun softbody_bringup demo
 
-bench: build  ## run the benchmarks; writes bench/summary.json and docs/measured/benchmarks.md
+bench: development  ## run the benchmarks; writes bench/summary.json and docs/measured/benchmarks.md
 	scripts/bench
 
-fuzz: build  ## give mutated files to every reader and mutated messages to every node, FUZZ_SECONDS=60 each
+fuzz: development  ## give mutated files to every reader and mutated messages to every node, FUZZ_SECONDS=60 each
 	scripts/install_dependencies scripts/optional_packages/fuzz.txt
 	scripts/fuzz
 
@@ -67,13 +70,13 @@ scans: build  ## scan virtual bodies and faulty recordings, track with the model
 figures: build  ## draw the paper's Figures 1 to 11 with our models, in docs/images
 	scripts/paper figures
 
-paper: build  ## measure the paper's accuracy, tables and times beside ours; writes docs/paper.md. PARTS="times": prints only that part
+paper: development  ## measure the paper's accuracy, tables and times beside ours; writes docs/paper.md. PARTS="times": prints only that part
 	scripts/paper $(PARTS)
 
 validation: build  ## compare the simulator with known solutions; writes docs/validation.md
 	scripts/validate
 
-growth: build  ## measure how time and memory grow with tets, pieces, vertices, pixels and features; writes docs/growth.md
+growth: development  ## measure how time and memory grow with tets, pieces, vertices, pixels and features; writes docs/growth.md
 	scripts/growth
 
 sanitize: dependencies  ## build with sanitizers (address and undefined, thread) and run tests, replay and the live graph (hours)

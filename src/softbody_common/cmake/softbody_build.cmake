@@ -126,9 +126,16 @@ static const bool told = softbody::setPackageVersion("@PROJECT_NAME@ @version@")
 endfunction()
 
 # softbody_development_program(NAME SOURCE...): an executable for make targets, not installed. The caller links it. It is
-# where rosrun, which completes the names of programs, does not look.
+# where rosrun, which completes the names of programs, does not look. The targets `development` and `tests` build it.
 function(softbody_development_program name)
-  add_executable(${name} ${ARGN})
+  add_executable(${name} EXCLUDE_FROM_ALL ${ARGN})
+  if(NOT TARGET development)
+    add_custom_target(development)
+  endif()
+  add_dependencies(development ${name})
+  if(TARGET tests)
+    add_dependencies(tests ${name})
+  endif()
   set_target_properties(${name} PROPERTIES
     RUNTIME_OUTPUT_DIRECTORY ${CATKIN_DEVEL_PREFIX}/lib/development/${PROJECT_NAME})
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/test

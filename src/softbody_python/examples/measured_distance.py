@@ -18,10 +18,8 @@ for _ in range(int(sys.argv[1]) if len(sys.argv) > 1 else 10**9):
     state = body.wait(timeout_s=60, after=state)
     for cloud in [cloud for cloud in list(clouds) if cloud.header.stamp == state.stamp]:
         points = np.frombuffer(cloud.data, np.float32).reshape(-1, cloud.point_step // 4)[:, :3].astype(float)
-        points = points[np.isfinite(points).all(axis=1)]
         a, b, c = state.vertices[state.triangles].transpose(1, 0, 2)
-        away, near = cKDTree((a + b + c) / 3).query(points)
-        normals = np.cross(b - a, c - a)
-        normals /= np.linalg.norm(normals, axis=1, keepdims=True)
-        distance = np.einsum("ij,ij->i", points - a[near], normals[near])[away < 0.01]  # others are not of the body
-        print(f"{state.time:.3f} s: {len(distance)} points, mean {1000 * distance.mean():+.2f} mm", flush=True)
+        away, near = cKDTree((a + b + c) / 3).query(np.nan_to_num(points, nan=1e3))
+        normals = np.cross(b - a, c - a)[near][away < 0.01]  # the others are not of the body
+        heights = ((points - a[near])[away < 0.01] * normals).sum(axis=1) / np.linalg.norm(normals, axis=1)
+        print(f"{state.time:.3f} s: {len(heights)} points, mean {1000 * heights.mean():+.2f} mm", flush=True)

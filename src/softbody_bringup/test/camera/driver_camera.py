@@ -2,13 +2,13 @@
 import struct
 import threading
 import time
-import zlib
 
 import numpy as np
 import rospy
 import tf2_ros
 from geometry_msgs.msg import TransformStamped
 from sensor_msgs.msg import CameraInfo, CompressedImage, Image
+from softbody.compress_bag import png
 
 HOLE = (slice(0, 8), slice(0, 8))  # rows and columns without depth
 DEPTH_M = 0.6
@@ -61,25 +61,12 @@ DRIVERS = {
 }
 
 
-def png(pixels):
-    """A PNG of grey (8 or 16 bits) or of RGB."""
-    grey = pixels.ndim == 2 or pixels.shape[2] == 1
-    height, width = pixels.shape[:2]
-    rows = pixels.astype(pixels.dtype.newbyteorder(">")).reshape(height, -1)
-    data = b"".join(b"\0" + row.tobytes() for row in rows)
-
-    def chunk(kind, body):
-        return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
-    header = struct.pack(">IIBBBBB", width, height, 8 * pixels.itemsize, 0 if grey else 2, 0, 0, 0)
-    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(data, 1)) + chunk(b"IEND", b"")
-
-
 def compressed(stream, pixels):
     """@return format and data, as image_transport's plugins write them."""
     if stream.transport == "compressed":
-        return f"{stream.encoding}; png compressed bgr8", png(pixels)
+        return f"{stream.encoding}; png compressed bgr8", png(pixels.squeeze())
     if stream.encoding == "16UC1":
-        return "16UC1; compressedDepth png", struct.pack("<iff", 0, 0, 0) + png(pixels)
+        return "16UC1; compressedDepth png", struct.pack("<iff", 0, 0, 0) + png(pixels.squeeze())
     a = 100.0 * 101.0  # depth_quantization 100, depth_max 10 m
     b = 1.0 - a / 10.0
     inverse = np.where(np.isfinite(pixels), a / np.where(np.isfinite(pixels), pixels, 1.0) + b, 0.0).astype(np.uint16)

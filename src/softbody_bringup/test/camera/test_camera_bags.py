@@ -9,9 +9,10 @@ import unittest
 import numpy as np
 import rosbag
 import rostest
+from softbody.compress_bag import pixels_of
 
 sys.path.append(os.path.dirname(os.path.abspath(__file__)))
-from compressed_bag import BAG, COLOR, DEPTH, SHARE, array, compress, copy_bag  # pylint: disable=wrong-import-position
+from compressed_bag import BAG, COLOR, DEPTH, SHARE, copy_bag  # pylint: disable=wrong-import-position
 
 OBJECT = f"{SHARE}/config/sponge.yaml"
 RENAMED = {COLOR: "/rgb/image_raw", "/camera/color/camera_info": "/rgb/camera_info",
@@ -21,7 +22,7 @@ NAMES = ["--color", "/rgb/image_raw", "--depth", "/depth_to_rgb/image_raw"]
 
 def shift(topic, image):
     if topic == DEPTH:
-        image.data = np.roll(array(image), 30, axis=1).tobytes()
+        image.data = np.roll(pixels_of(image), 30, axis=1).tobytes()
     return topic, image
 
 
@@ -51,10 +52,26 @@ class CameraBags(unittest.TestCase):
 
     def test_compressed_images_are_replayed_like_raw_ones(self):
         """PNG loses nothing."""
-        compressed = self.copy("compressed.bag", compress)
+        compressed = self.path("compressed.bag")
+        made = tool("compress_bag", BAG, compressed)
+        self.assertEqual(made.returncode, 0, made.stderr)
+        self.assertLess(os.path.getsize(compressed), os.path.getsize(BAG))
+        again = tool("compress_bag", BAG, compressed)
+        self.assertEqual(again.returncode, 1)
+        self.assertEqual(again.stderr, f"compress_bag: {compressed} exists; give another name or remove it\n")
         self.assertEqual(self.surfaces(compressed), self.surfaces(BAG))
         checked = tool("validate_bag", compressed)
         self.assertEqual(checked.returncode, 0, checked.stdout + checked.stderr)
+
+    def test_an_image_with_missing_rows_is_not_compressed(self):
+        def shorten(topic, message):
+            if topic == COLOR:
+                message.data = message.data[:-1]
+            return topic, message
+        refused = tool("compress_bag", self.copy("short.bag", shorten), self.path("short_compressed.bag"))
+        self.assertEqual(refused.returncode, 1)
+        self.assertRegex(refused.stderr, f"{COLOR} at .* s: the image has [0-9]+ bytes, not 480 rows of")
+        self.assertFalse([name for name in os.listdir(self.path("")) if name.startswith("short_compressed")])
 
     def test_topics_may_have_other_names(self):
         renamed = self.copy("renamed.bag", lambda topic, message: (RENAMED.get(topic, topic), message))

@@ -9,11 +9,12 @@ import unittest
 
 import rospy
 import rostest
+from softbody.compress_bag import compress
 from softbody_msgs.msg import MeshState, TrackingStatus
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path += [os.path.join(HERE, "..", "camera"), os.path.join(HERE, "..", "shared")]
-from compressed_bag import BAG, SHARE, compress, copy_bag  # pylint: disable=wrong-import-position
+from compressed_bag import BAG, SHARE, copy_bag  # pylint: disable=wrong-import-position
 from recorder import Recorder  # pylint: disable=wrong-import-position
 
 

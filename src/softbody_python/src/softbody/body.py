@@ -1,5 +1,6 @@
 """The tracked body, live. Call rospy.init_node first."""
 import collections
+import itertools
 import os
 import threading
 import time
@@ -31,9 +32,9 @@ class Body:
     """
 
     def __init__(self, namespace="/softbody", with_volume=True, service_timeout_s=10.0):
-        """@param with_volume: states wait for the tets of the same frame."""
+        """@param with_volume: states wait for the tets of the same frame. The first state has them."""
         self.namespace, self.service_timeout_s = rospy.resolve_name(namespace).rstrip("/"), service_timeout_s
-        self._joiner = Joiner(with_volume)
+        self._with_volume, self._joiner = with_volume, Joiner(with_volume)
         self._changed = threading.Condition()
         self._order = threading.RLock()  # one callback at a time, in the order of the states
         self._latest, self._undelivered, self._callbacks = None, collections.deque(), []
@@ -221,6 +222,9 @@ class Body:
             return
         with self._changed:
             states = add(decoded)
+            if self._with_volume and self._latest is None:
+                # The volume's topics may be connected after those of the surface.
+                states = list(itertools.dropwhile(lambda state: state.volume is None, states))
             self._undelivered.extend(states)
             if states:
                 self._latest = states[-1]
