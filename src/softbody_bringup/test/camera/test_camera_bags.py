@@ -70,7 +70,7 @@ class CameraBags(unittest.TestCase):
             return topic, message
         refused = tool("compress_bag", self.copy("short.bag", shorten), self.path("short_compressed.bag"))
         self.assertEqual(refused.returncode, 1)
-        self.assertRegex(refused.stderr, f"{COLOR} at .* s: the image has [0-9]+ bytes, not 480 rows of")
+        self.assertRegex(refused.stderr, f"{COLOR} at .* s: the image has [0-9]+ bytes, not [0-9]+ rows of")
         self.assertFalse([name for name in os.listdir(self.path("")) if name.startswith("short_compressed")])
 
     def test_topics_may_have_other_names(self):
