@@ -89,7 +89,7 @@ TEST(PlacedBody, AWrongPoseIsRightOrReportedWithinASecond) {
 }
 
 TEST(PlacedBody, AMeshOfTheWrongSizeIsReported) {
-  for (const auto& [scale, words] : {std::pair(1.3, "1.3 times smaller"), std::pair(0.77, "a larger body")}) {
+  for (const auto& [scale, words] : {std::pair(1.3, "% smaller"), std::pair(0.77, "a larger body")}) {
     PlacedBox box(scale);
     box.placeAt(boxPose());
     const TrackingStatus status = box.showForASecond().status;

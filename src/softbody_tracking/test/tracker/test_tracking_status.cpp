@@ -45,7 +45,8 @@ TEST(StatusOf, AnOutlineSmallerAllAroundNamesTheScale) {
   Observation seen = wellSeen();
   seen.outline.disagreement = 0.3;
   seen.outline.excess = -0.28;
-  EXPECT_NE(statusWith(seen, wide, 0.77).reason.find("a body about 1.3 times smaller"), std::string::npos);
+  EXPECT_NE(statusWith(seen, wide, 0.77).reason.find("a body about 23 % smaller"), std::string::npos);
+  EXPECT_EQ(statusWith(seen, wide, 0.998).reason.find("smaller"), std::string::npos);
   seen.outline.excess = 0.05;
   EXPECT_NE(statusWith(seen, wide, 0.77).reason.find("check mesh, scale and pose"), std::string::npos);
 }

@@ -16,11 +16,12 @@ namespace {
 /// What an outline that is smaller or larger all around says about the mesh. Outlines that differ both ways
 /// are those of another shape or pose.
 std::string causeOf(const OutlineAssociations& outline, double image_scale) {
-  if (2.0 * std::abs(outline.excess) <= outline.disagreement || !(image_scale > 0.0))
-    return "check mesh, scale and pose";
+  const std::string unknown = "check mesh, scale and pose";
+  if (2.0 * std::abs(outline.excess) <= outline.disagreement || !(image_scale > 0.0)) return unknown;
   if (outline.excess > 0.0) return "the image shows a larger body: check mesh and scale";
-  return fmt::format("the image shows a body about {:.1f} times smaller: check mesh and scale",
-                     1.0 / image_scale);
+  const long smaller = std::lround(100.0 * (1.0 - image_scale));
+  if (smaller <= 0) return unknown;
+  return fmt::format("the image shows a body about {} % smaller: check mesh and scale", smaller);
 }
 
 /// What disagrees.
