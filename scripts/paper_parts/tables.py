@@ -65,8 +65,8 @@ def features(reports):
                                          "to the body (medians over the frames). Bound features may be on hidden "
                                          "sides. The limit is for those in view: so our tracker may bind more. It "
                                          "itself stops at four in view for each visible vertex of the volume, or at "
-                                         "300. Of the features between frames, the limit of 1000 is the paper's N_p: "
-                                         "so many are bound, and fewer are matched.",
+                                         "300. With features between frames, a limit of 1000 is the paper's N_p. At "
+                                         "most so many are bound, and fewer are matched.",
                    ["features: error (matched of bound)", *SCENES], rows)
 
 

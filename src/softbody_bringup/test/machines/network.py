@@ -25,8 +25,10 @@ def why_impossible():
     missing = [program for program in ("ip", "nsenter", "unshare") if shutil.which(program) is None]
     if missing:
         return f"these programs are missing: {', '.join(missing)}"
-    if not os.path.exists("/dev/net/tun"):
-        return "there is no /dev/net/tun"
+    try:
+        os.close(os.open("/dev/net/tun", os.O_RDWR))
+    except OSError as error:
+        return f"/dev/net/tun cannot be used: {error.strerror}"
     if subprocess.run(["unshare", "-n", "true"], check=False, stderr=subprocess.DEVNULL).returncode != 0:
         return "unshare -n is not permitted"
     return ""

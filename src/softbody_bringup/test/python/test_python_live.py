@@ -217,6 +217,14 @@ class PythonLive(unittest.TestCase):
             self.body.wait(timeout_s=0.2, revision=99)
         nobody.close()
 
+    def test_the_first_state_has_its_volume(self):
+        """Whichever topics are connected first."""
+        for _ in range(20):
+            body = softbody.Body()
+            state = body.wait(timeout_s=60)
+            body.close()
+            self.assertIsNotNone(state.volume)
+
     def example(self, name, *arguments):
         run = subprocess.run(["python3", f"{EXAMPLES}/{name}", *map(str, arguments)], stdout=subprocess.PIPE,
                              stderr=subprocess.STDOUT, text=True, timeout=120)

@@ -1,9 +1,11 @@
 """The command line: `rosrun softbody_bringup compress_bag IN.bag OUT.bag`."""
 import argparse
+import collections
 import os
 import pathlib
 import struct
 import sys
+import tempfile
 import zlib
 
 import numpy as np
@@ -55,8 +57,9 @@ def compress(topic, image):
 
 
 def compress_bag(source, target):
-    """@return the number of images that were compressed. @throw ValueError, OSError, rosbag.ROSBagException."""
-    count = 0
+    """@return how many images are compressed, and the encodings of those that are not. @throw ValueError, OSError,
+    rosbag.ROSBagException."""
+    count, kept = 0, collections.Counter()
     with rosbag.Bag(str(source)) as read, rosbag.Bag(str(target), "w") as written:
         for topic, message, stamp in read:
             try:
@@ -64,8 +67,10 @@ def compress_bag(source, target):
             except ValueError as error:
                 raise ValueError(f"{topic} at {stamp.to_sec():.3f} s: {error}") from error
             count += name != topic
+            if packed._type == "sensor_msgs/Image":
+                kept[f"{topic} ({packed.encoding})"] += 1
             written.write(name, packed, stamp)
-    return count
+    return count, kept
 
 
 def main():
@@ -77,12 +82,18 @@ def main():
     options = parser.parse_args()
     if options.target.exists():
         sys.exit(f"compress_bag: {options.target} exists; give another name or remove it")
-    partial = options.target.with_suffix(".part")
+    folder = None
     try:
-        count = compress_bag(options.source, partial)
+        folder = tempfile.TemporaryDirectory(prefix=".compress_bag_", dir=options.target.parent)
+        partial = pathlib.Path(folder.name) / "partial.bag"
+        count, kept = compress_bag(options.source, partial)
         os.replace(partial, options.target)
     except (ValueError, OSError, rosbag.ROSBagException) as error:
-        partial.unlink(missing_ok=True)
         sys.exit(f"compress_bag: {options.source}: {error}")
+    finally:
+        if folder is not None:
+            folder.cleanup()
+    for images, number in kept.items():
+        print(f"{images}: {number} images stay as they are; only {', '.join(CHANNELS)} and 16UC1 are compressed")
     print(f"{count} images are compressed: {options.source.stat().st_size / 1e6:.1f} MB, now "
           f"{options.target.stat().st_size / 1e6:.1f} MB in {options.target}")

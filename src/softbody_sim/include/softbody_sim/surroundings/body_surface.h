@@ -31,7 +31,7 @@ class BodySurface {
                                   const Points& vertices) const;
 
   /// verticesToHold() of a box in rest space. @param what the box is, for the error.
-  /// @throw std::invalid_argument if there are none. The error names what is nearest to the box.
+  /// @throw std::invalid_argument if the box holds no vertex. The error names what is nearest to the box.
   std::vector<int> verticesAtRest(const std::string& what, const Eigen::AlignedBox3d& box,
                                   const Points& rest_vertices) const;
 
