@@ -45,7 +45,7 @@ cuts: dependencies  ## cut sponge, torus, spot and the toy of ../shared/data 10,
 	scripts/build tests
 	scripts/cuts
 
-demo: build  ## track a virtual sponge: in rviz with a display, otherwise with pictures and figures in demo_output/
+demo: build  ## track a virtual sponge: in rviz with a display, otherwise with pictures and values in demo_output/
 	catkin_ws/devel/env.sh rosrun softbody_bringup demo
 
 bench: development  ## run the benchmarks; writes bench/summary.json and docs/measured/benchmarks.md

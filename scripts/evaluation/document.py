@@ -41,7 +41,7 @@ def document(root, reports):
              *paragraph("The recordings come from the virtual camera (default seed and noise, 640 x 480 at 30 Hz). "
                         "`replay` tracks them, and `evaluate` compares the results with the exact truth. `-` means "
                         "not measured. See also the [scenes](virtual_camera.md#scenes) and the [definitions of the "
-                        "figures](figures.md)."), "",
+                        "metrics](metrics.md)."), "",
              "## Goals", "",
              *paragraph("A part of the error comes from the volume (the tets) and its material. Tracking can hardly "
                         "remove this part: [what the volume allows](#what-the-volume-allows)."), "",

@@ -158,4 +158,4 @@ def verdict(goal, unit, value):
 def goal_table(reports):
     rows = [[figure, *verdict(goal, unit, value)]
             for figure, goal, unit, value in [*goals(reports), *world_goals(reports)]]
-    return table(["figure", "goal", "measured", "reached"], rows)
+    return table(["metric", "goal", "measured", "reached"], rows)

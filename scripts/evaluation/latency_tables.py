@@ -51,7 +51,7 @@ def document(root, rows):
     lines = ["# Latency", "",
              f"Written by `make latency` on {datetime.date.today()} at commit {commit(root)}, on {processor()}.", "",
              *paragraph("`scripts/measure_live` runs the live graph of scenes bend and doll_bend, each row for some seconds after "
-                        "the first mesh ([definitions](figures.md#the-live-graph)). The camera works on the same machine. A bag is "
+                        "the first mesh ([definitions](metrics.md#the-live-graph)). The camera works on the same machine. A bag is "
                         "recorded at 30 Hz, and played at twice its speed for 60 Hz."), "",
              "## From image to mesh", "",
              *paragraph("In ms, from the moment when the image is published to the moment when another process receives the mesh. "

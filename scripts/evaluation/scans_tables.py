@@ -108,10 +108,10 @@ def tracking_part(tracking):
     return ["## Tracking with the scanned model", "",
             *paragraph("`replay` with its default settings tracks a scene twice: with the shipped true mesh, from its rough "
                        "pose, and with a model of the first table, which is searched for. Error: mean distance of the result "
-                       f"from the true surface where the camera sees it ([surface distance](figures.md#{surface})). It is "
+                       f"from the true surface where the camera sees it ([surface distance](metrics.md#{surface})). It is "
                        "measured in the same way for every mesh, but it does not see that a surface slides along itself. The "
                        "error of the scan itself is a part of it (first table). Vertices: mean error of the visible "
-                       "vertices, which sees sliding; a scanned mesh has [other vertices](figures.md#" + other + "). "
+                       "vertices, which sees sliding; a scanned mesh has [other vertices](metrics.md#" + other + "). "
                        "In bound: share of them within their predicted 90 % bound; with less than 90 % the predicted errors "
                        "are too small. Tracked: share of the frames, with the scanned model."), "",
             *paragraph(f"Goals: the error is at most {LARGER_ERROR} times that with the true mesh; as many frames are "

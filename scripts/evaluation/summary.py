@@ -39,4 +39,4 @@ def summary_table(reports):
     for figure, goal, unit, value, name in figures(reports):
         limit, measured, reached = verdict(goal, unit, value)
         rows.append([figure, limit, f"{measured} ({name})" if name else measured, reached])
-    return table(["figure", "goal", "measured (scene)", "reached"], rows)
+    return table(["metric", "goal", "measured (scene)", "reached"], rows)

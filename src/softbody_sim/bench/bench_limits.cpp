@@ -16,7 +16,7 @@
 #include "tets/tet_matrix.h"
 
 /// How near the three hottest loops are to what this machine can do: bytes and operations of each loop, by
-/// the formulas in docs/figures.md, divided by the time and by the bandwidth and peak that are measured here.
+/// the formulas in docs/metrics.md, divided by the time and by the bandwidth and peak that are measured here.
 namespace {
 
 using namespace softbody;

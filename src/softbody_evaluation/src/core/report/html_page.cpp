@@ -51,7 +51,7 @@ std::string cell(const std::string& figure, const std::optional<double>& value) 
 std::string table(const std::vector<ComparedFigure>& rows) {
   bool compared = false;
   for (const ComparedFigure& row : rows) compared = compared || row.second;
-  std::string html = "<table><tr><th>figure</th><th>unit</th><th>result</th>";
+  std::string html = "<table><tr><th>metric</th><th>unit</th><th>result</th>";
   html += compared ? "<th>other</th>" : "";
   html += "<th>limits</th><th>meaning</th></tr>\n";
   for (const ComparedFigure& row : rows) {
@@ -67,7 +67,7 @@ std::string verdictBox(const JudgedResult& result) {
   std::string html = fmt::format("<section class={0}><h2>{1}: {0}</h2>\n", toText(result.verdict.level),
                                  escaped(result.name));
   if (!result.verdict.premise.empty()) html += "<p>" + escaped(result.verdict.premise) + "</p>\n";
-  if (result.verdict.findings.empty()) html += "<p>No figure is beyond its limits.</p>\n";
+  if (result.verdict.findings.empty()) html += "<p>No metric is beyond its limits.</p>\n";
   html += "<ul>";
   for (const Finding& finding : result.verdict.findings)
     html += "<li>" + escaped(finding.sentence) + "</li>\n";
@@ -174,7 +174,7 @@ std::string htmlPage(const std::vector<JudgedResult>& results, const std::vector
     films += filmBox(result);
   }
   return kHead + fmt::format("<title>{0}</title></head>\n<body><h1>{0}</h1>\n", title) + verdicts + films +
-         "<h2>Figures</h2>\n" + table(rows) + "<h2>Plots</h2>\n" + inPairs(pictures) +
+         "<h2>Metrics</h2>\n" + table(rows) + "<h2>Plots</h2>\n" + inPairs(pictures) +
          "<h2>Details</h2>\n<pre>" + escaped(text) + "</pre>\n" + kScript + "</body></html>\n";
 }
 

@@ -12,7 +12,7 @@ namespace softbody::evaluation {
 namespace {
 
 constexpr std::size_t kWidth = 100;  // about that of the table
-// Figures without limits that are asked for.
+// Metrics without limits that are asked for.
 const std::set<std::string> kAskedFor = {"vertex error, mean", "open loop, mean", "open loop, p95"};
 
 std::string line(const std::string& name, const std::string& value, const std::string& unit,
@@ -56,7 +56,7 @@ std::string verdictText(const Report& report) {
 }
 
 std::string summaryTable(const Report& report) {
-  std::string text = line("figure", "result", "", "limits");
+  std::string text = line("metric", "result", "", "limits");
   for (const Figure& figure : figures(report)) {
     if (kAskedFor.count(figure.name) > 0 || !limitsOf(figure.name).empty()) text += row(figure);
   }

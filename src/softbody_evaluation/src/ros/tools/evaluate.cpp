@@ -21,7 +21,7 @@
 namespace softbody::evaluation {
 namespace {
 
-constexpr std::uint64_t kModelSeed = 1;  // of the samples: the same figures each time
+constexpr std::uint64_t kModelSeed = 1;  // of the samples: the same metrics each time
 
 /// What is printed, and of which results.
 struct Output {
@@ -63,7 +63,7 @@ void declareMeasures(CLI::App* app, EvaluatorOptions* options, Output* output) {
       ->capture_default_str();
   app->add_option("--open-loop", options->open_loop,
                   "share of the frames at the end that the result predicts without images (replay "
-                  "--open-loop): their error is a figure of its own")
+                  "--open-loop): their error is a metric of its own")
       ->check(CLI::Range(0.0, 0.95));
   app->add_option_function<int>(
          "--window",
@@ -74,8 +74,8 @@ void declareMeasures(CLI::App* app, EvaluatorOptions* options, Output* output) {
          "prints the depth residual too, a row for each such number of frames")
       ->check(CLI::Range(1, 1000000));
   app->add_option("--report", options->report_folder,
-                  "folder for report.html, a page with all figures and pictures, and report.json");
-  app->add_flag("--json", output->json, "prints all figures as JSON, and nothing else");
+                  "folder for report.html, a page with all metrics and pictures, and report.json");
+  app->add_flag("--json", output->json, "prints all metrics as JSON, and nothing else");
 }
 
 /// Must come last: models are not measured together with bags.
@@ -97,7 +97,7 @@ void declareModels(CLI::App* app, EvaluatorOptions* options, Output* output) {
 
 /// Where the page is, or how to get it.
 std::string pageLine(const EvaluatorOptions& options) {
-  if (options.report_folder.empty()) return "page with all figures and pictures: add --report FOLDER\n";
+  if (options.report_folder.empty()) return "page with all metrics and pictures: add --report FOLDER\n";
   const std::filesystem::path folder = std::filesystem::absolute(options.report_folder);
   return fmt::format("report: {}\n", (folder / "report.html").lexically_normal().string());
 }

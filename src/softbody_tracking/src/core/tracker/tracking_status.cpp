@@ -80,7 +80,7 @@ TrackingStatus statusOf(const Observation& seen, const std::vector<Association>&
     status.reason = fmt::format("half of the visible body may be {:.0f} mm off or more: {}",
                                 1000.0 * error.bound_m, cause);
   else if (isHeld(seen.observability))
-    status.reason = "too little shows of every piece: all are held where they were";
+    status.reason = "every piece is almost hidden, and stays at its last pose";
   status.state = status.reason.empty() ? TrackingState::kTracking : TrackingState::kDegraded;
   return status;
 }
@@ -101,7 +101,7 @@ TrackingStatus HeldPieces::report(const Observation& seen, const std::vector<std
   if (status.state != TrackingState::kTracking) return status;
   if (!missing.empty()) {
     status.state = TrackingState::kDegraded;
-    append("too little shows of " + piecesText(missing, all.size()) + ": held where it was", &status.reason);
+    append("almost hidden, at the last pose: " + piecesText(missing, all.size()), &status.reason);
   }
   if (!hidden.empty()) {
     append(piecesText(hidden, all.size()) + " out of view or too small to be followed: only inferred",
