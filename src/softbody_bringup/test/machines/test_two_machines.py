@@ -25,6 +25,7 @@ CONFIG = rospkg.RosPack().get_path("softbody_bringup") + "/config"
 class TwoMachines(unittest.TestCase):
     def setUp(self):
         if why := why_impossible():
+            print(f"SKIPPED {self.id()}: {why}")
             self.skipTest(why)
         logs = tempfile.TemporaryDirectory()
         self.addCleanup(logs.cleanup)
