@@ -11,7 +11,7 @@ $(shell mkdir -p $(HOME))
 endif
 
 .PHONY: build development test shared-data recordings meshes cuts demo bench fuzz evaluate starts latency scans figures paper validation growth
-.PHONY: sanitize soak error-table parameter-tables api tidy format
+.PHONY: sanitize soak parameter-tables api tidy format
 .PHONY: clean help dependencies
 
 build: dependencies  ## build everything; afterwards: . catkin_ws/devel/setup.bash
@@ -84,9 +84,6 @@ sanitize: dependencies  ## build with sanitizers (address and undefined, thread)
 
 soak: build  ## run two live graphs for SOAK_MINUTES=60 with faults, cuts and killed nodes. KILLS=500: until 500 kills, one every 3 s
 	bash -c '. catkin_ws/devel/setup.bash && exec scripts/soak --minutes $(or $(SOAK_MINUTES),60) $(if $(KILLS),--kills $(KILLS))'
-
-error-table:  ## write the table of all messages in docs/troubleshooting.md from the sources
-	scripts/error_table
 
 parameter-tables: build  ## write the tables of parameters in docs/ from the nodes
 	. catkin_ws/devel/setup.sh && scripts/checks/parameter_tables

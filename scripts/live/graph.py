@@ -62,7 +62,7 @@ class Graph:
         end = time.monotonic() + seconds
         while True:
             if self._signal:
-                print(f"measure_live: stopped by {signal.Signals(self._signal).name}", file=sys.stderr)
+                print(f"measure_live: was stopped by {signal.Signals(self._signal).name}", file=sys.stderr)
                 sys.exit(128 + self._signal)
             left = end - time.monotonic()
             if left <= 0.0:

@@ -62,7 +62,7 @@ class Measurement:
             if not graph.runs():
                 sys.exit(f"measure_live: the launch ended before anything came on {SURFACE}")
             if time.monotonic() > deadline:
-                sys.exit(f"measure_live: nothing on {SURFACE} within {self.options.wait:.0f} s")
+                sys.exit(f"measure_live: nothing came on {SURFACE} within {self.options.wait:.0f} s")
             graph.sleep(0.1)
         graph.sleep(WARM_UP_S)
 

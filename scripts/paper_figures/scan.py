@@ -21,7 +21,7 @@ def read_image(bag):
         for number, (_, message, _) in enumerate(opened.read_messages(topics=COLOR)):
             if number == SHOWN:
                 return np.frombuffer(message.data, np.uint8).reshape(message.height, message.width, 3)
-    raise ValueError(f"{bag}: fewer than {SHOWN + 1} images")
+    raise ValueError(f"{bag}: has fewer than {SHOWN + 1} images")
 
 
 def read_obj(path):

@@ -73,7 +73,7 @@ void PlyReader::readHeaderLine(const std::string& line) {
     words >> format_;
     const bool known =
         format_ == "ascii" || format_ == "binary_little_endian" || format_ == "binary_big_endian";
-    if (!known) fail(fmt::format("line {}", line_), fmt::format("unknown format '{}'", format_));
+    if (!known) fail(fmt::format("line {}", line_), fmt::format("the format '{}' is unknown", format_));
   } else if (keyword == "element") {
     declareElement(line, words);
   } else if (keyword == "property") {

@@ -29,7 +29,7 @@ class Scene:
             self.frame, self.has_image = state.frame, bool(self.texture) and state.texture_coordinates is not None
             self.start = time
         if state.frame != self.frame:
-            raise ExportError(f"the frame of the states changes from {self.frame} to {state.frame} after {time:.3f} s; "
+            raise ExportError(f"the states are in frame {self.frame}, and in {state.frame} after {time:.3f} s; "
                               "export each part with --from and --to")
         time -= self.start  # the animation begins at 0
         if self.segment is None or not _is_same(state.topology, self.segment.topology):

@@ -22,7 +22,7 @@ void append(const Matrix& matrix, std::string* bytes) {
 template <typename T>
 void take(Eigen::Index count, T* values, std::string_view* bytes) {
   const std::size_t size = sizeof(T) * static_cast<std::size_t>(count);
-  if (bytes->size() < size) throw std::invalid_argument("incomplete mesh between processes");
+  if (bytes->size() < size) throw std::invalid_argument("the mesh between two processes is not complete");
   if (size > 0) std::memcpy(values, bytes->data(), size);
   bytes->remove_prefix(size);
 }
@@ -32,7 +32,7 @@ Matrix take(std::string_view* bytes) {
   Eigen::Index rows = 0;
   take(1, &rows, bytes);
   if (rows < 0 || static_cast<std::size_t>(rows) > bytes->size())
-    throw std::invalid_argument("incomplete mesh between processes");
+    throw std::invalid_argument("the mesh between two processes is not complete");
   Matrix matrix(rows, Matrix::ColsAtCompileTime);
   take(matrix.size(), matrix.data(), bytes);
   return matrix;

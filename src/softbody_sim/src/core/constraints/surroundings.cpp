@@ -22,7 +22,8 @@ void requireUsable(const Surroundings& surroundings, Eigen::Index vertex_count) 
   }
   const Points& loads = surroundings.loads;
   if (loads.size() > 0 && loads.rows() != vertex_count)
-    throw std::invalid_argument(fmt::format("{} loads for {} vertices", loads.rows(), vertex_count));
+    throw std::invalid_argument(
+        fmt::format("there are {} loads for {} vertices", loads.rows(), vertex_count));
   if (!loads.allFinite()) throw std::invalid_argument("a load is not finite");
 }
 

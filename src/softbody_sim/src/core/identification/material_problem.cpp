@@ -15,7 +15,8 @@ namespace {
 
 void requireUsableTargets(std::size_t k, const ShapeObservation& observation, Eigen::Index tets) {
   if (!observation.images.empty() && observation.images.size() != observation.targets.size())
-    refuse(k, fmt::format("{} images for {} targets", observation.images.size(), observation.targets.size()));
+    refuse(k, fmt::format("there are {} images for {} targets", observation.images.size(),
+                          observation.targets.size()));
   for (const Target& target : observation.targets) {
     const bool is_finite =
         target.position.allFinite() && target.normal.allFinite() && target.place.barycentric.allFinite();

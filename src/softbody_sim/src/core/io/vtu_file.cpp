@@ -115,7 +115,7 @@ class VtuReader {
     }
     quadratic_ += type == kVtkTetra ? 0 : 1;
     if (end - begin != (type == kVtkTetra ? 4.0 : 10.0))
-      fail(fmt::format("cell {}: a tet of {} vertices", cell, end - begin));
+      fail(fmt::format("cell {}: a tet has {} vertices", cell, end - begin));
     Eigen::RowVector4i tet;
     for (int k = 0; k < 4; ++k) {
       const double vertex = connectivity[static_cast<std::size_t>(begin) + static_cast<std::size_t>(k)];

@@ -71,7 +71,7 @@ void ForcePublisher::send(ForceEstimate estimate, const std_msgs::Header& header
       estimate = withWrenchIn(std::move(estimate), *pose);
     } else {
       ROS_WARN_STREAM_THROTTLE(5.0, "the net wrench is in '" << frame << "', because tf does not know '"
-                                                             << wrench_frame_ << "' (wrench_frame)");
+                                                             << wrench_frame_ << "'; check wrench_frame");
     }
   }
   const auto message = boost::make_shared<softbody_msgs::Forces>(toMessage(estimate, frame));

@@ -94,7 +94,8 @@ void PoseMarkerNode::restartTracking(const PoseMarker::Feedback& feedback) {
   call.request.pose.header.frame_id = feedback.header.frame_id;  // stamp 0: the latest transform counts
   call.request.pose.pose = feedback.pose;
   if (!set_pose_.call(call)) {
-    ROS_WARN_STREAM("the service " << set_pose_.getService() << " does not answer");
+    ROS_WARN_STREAM("the service " << set_pose_.getService()
+                                   << " does not answer; check that feature_tracker runs");
   } else if (!call.response.success) {
     ROS_WARN_STREAM(call.response.message);
   }
