@@ -26,9 +26,8 @@ inline bool isPlausible(const Eigen::Vector3d& position) {
   return position.allFinite() && position.cwiseAbs().maxCoeff() <= kLargestCoordinate_m;
 }
 
-/// A measurement farther than this from where a point of the body is expected does not belong to the body
-/// [m]: ten times the body's size, and at least 1 m, because pieces of a small body are carried through the
-/// view of the camera.
+/// A measurement that is farther than this from its expected place does not belong to the body [m]: ten times
+/// the body's size, and at least 1 m, because small pieces are carried around.
 inline double reachOf(const Points& rest_vertices) {
   if (rest_vertices.rows() == 0) return 1.0;
   const double size = (rest_vertices.colwise().maxCoeff() - rest_vertices.colwise().minCoeff()).norm();

@@ -50,8 +50,8 @@ class RefusedStamps {
 };
 
 /// Judges the stamps of one stream. A single stamp far ahead or far back is an outlier and changes nothing.
-/// Only time that stays elsewhere has moved: after kStays consecutive stamps that follow each other there, or
-/// at once where the receiver's clock has made the same move.
+/// Time has jumped after kStays consecutive stamps in the new time, or at once if the receiver's clock has
+/// made the same jump.
 class Timeline {
  public:
   /// Within this distance of the last stamp nothing has jumped. A longer pause than this in the stream is in

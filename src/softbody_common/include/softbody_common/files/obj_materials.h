@@ -25,11 +25,11 @@ struct MaterialPictures {
   int otherwise = -1;  ///< of faces without a material: the first picture if no materials were asked for
 };
 
-/// The pictures of materials. A file is searched at its name, with '\' for '/' too, and else by the last part
-/// of the name beside the file that names it. Options of map_Kd are ignored with a warning. A file that is
-/// missing, unreadable or outside of the folder `within` (empty: any place) gives a warning.
-/// @param references mtllib lines, whose files name a picture (map_Kd) for each material; or one line for
-/// each of the materials that names its picture.
+/// The pictures of materials. A file is searched under its name, in which '\' may stand for '/'. If it is not
+/// there, the last part of the name is searched beside the file that names it. Options of map_Kd are ignored
+/// with a warning. A file that is missing, unreadable or outside of the folder `within` (empty: any place)
+/// gives a warning. @param references mtllib lines, whose files name a picture (map_Kd) for each material; or
+/// one line for each of the materials that names its picture.
 MaterialPictures picturesOf(const std::vector<FileReference>& references,
                             const std::vector<std::string>& materials, const std::filesystem::path& within,
                             std::vector<std::string>* warnings);

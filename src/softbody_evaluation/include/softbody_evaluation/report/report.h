@@ -35,8 +35,8 @@ struct PiecesReport {
   double frames_right = 0.0;    ///< share of them with the true number of pieces, 0..1
   double vertices_right = 0.0;  ///< mean share of the vertices that are in the right piece, 0..1
   std::size_t result_pieces = 0, true_pieces = 0;  ///< in the last of these frames
-  /// From the frame since which the truth has its last number of pieces to that of the result [s]; negative:
-  /// too early; empty: the result never has it to the end.
+  /// Delay of the last piece [s]: from the frame in which the truth gets its last number of pieces to that in
+  /// which the result gets it. Negative: too early. Empty: the result does not have this number at the end.
   std::optional<double> delay_s;
 };
 

@@ -17,10 +17,9 @@ struct RefinementReport {
       0.0;  ///< of the frames at the object, relative to the first: root of the mean variance
 };
 
-/// Makes the poses agree: pairs of frames that see the same, also those that are far apart in time, are
-/// aligned by texture and depth; then one adjustment of all poses. The first frame stays.
-/// @param frames in the order of time, with poses that are about right.
-/// @throw std::invalid_argument if no frame has depth.
+/// Makes the poses agree. Pairs of frames that see the same place are aligned by texture and depth, also if
+/// they are far apart in time. Then all poses are adjusted together. The first frame stays. @param frames in
+/// the order of time, with poses that are about right. @throw std::invalid_argument if no frame has depth.
 RefinementReport refinePoses(std::vector<KeyFrame>* frames);
 
 }  // namespace softbody::scanning

@@ -28,11 +28,11 @@ struct Registration {
 };
 
 /// Finds the motion. It starts at 600 rotations about the middle of the volume; point-to-plane ICP (Chen and
-/// Medioni 1992) with Geman and McClure's weights, so that what one of the surfaces lacks does not pull. A
+/// Medioni 1992) with Geman and McClure's weights, so that a part that one surface lacks has no effect. A
 /// surface that was never seen lies outside of the body: the other surface is on it or inside, and no more is
 /// asked of it. Among motions that fit alike the colours decide. What the other surface shows of the
-/// underside touches the table: walls alone do not tell how high a body is.
-/// @throw std::invalid_argument if the sizes differ by more than three times, or nothing was seen.
+/// underside touches the table: walls alone do not tell how high a body is. @throw std::invalid_argument if
+/// the sizes differ by more than three times, or nothing was seen.
 Registration registerSurfaces(const RegisteredSurface& moving, const RegisteredSurface& fixed);
 
 }  // namespace softbody::scanning

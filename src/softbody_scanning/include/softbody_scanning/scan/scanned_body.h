@@ -44,10 +44,10 @@ struct ScannedBody {
   double depth_std_m = 0.0;  ///< of one pixel at the object, measured
 };
 
-/// Fuses the recordings and takes the object out: what stands on the table at the chosen point; without one,
-/// what is large and near to the middle. The underside of a single recording is closed flat.
-/// @throw std::invalid_argument with the recording, what is missing and what to do: no depth, no object, none
-/// at the point, one that is larger than the region, recordings that do not fit together.
+/// Fuses the recordings and takes the object out: what stands on the table at the chosen point. Without such
+/// a point, what is large and near to the middle. The underside of a single recording is closed flat. @throw
+/// std::invalid_argument with the recording, what is missing and what to do: no depth, no object, none at the
+/// point, one that is larger than the region, recordings that do not fit together.
 ScannedBody scanBody(std::vector<PosedRecording> recordings, const ScanSettings& settings);
 
 }  // namespace softbody::scanning

@@ -23,11 +23,11 @@ struct PaintedMesh {
 };
 
 /// Paints a mesh from the frames that saw it (Waechter, Moehrle and Goesele 2014, "Let there be color!"):
-/// each triangle takes the frame that shows it largest and sharpest, unless another colour is seen there by
-/// the other frames, and neighbours take the same frame where they can. A texel is about a pixel of that
+/// each triangle is painted from the frame that shows it largest and sharpest, unless the other frames agree
+/// on another colour there. Neighbours take the same frame where they can. A texel is about a pixel of that
 /// frame. Exposures are made equal first, and what is left at the seams is spread over the surface. Triangles
-/// that no frame saw take the colour of the seen ones around them.
-/// @throw std::invalid_argument if no frame sees any triangle.
+/// that no frame saw take the colour of the seen ones around them. @throw std::invalid_argument if no frame
+/// sees any triangle.
 PaintedMesh paintMesh(const TriangleMesh& mesh, const std::vector<KeyFrame>& frames,
                       const PaintConfig& config);
 

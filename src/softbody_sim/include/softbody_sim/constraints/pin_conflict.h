@@ -7,8 +7,8 @@
 
 namespace softbody {
 
-/// By how far the pins of a region and the targets disagree [m]: the rigid motion that best takes the pins to
-/// where the targets see their vertices, as root mean square over the pins. What no target sees counts as
+/// How far the pins of a region and the targets disagree [m]: root mean square, over the pins, of the rigid
+/// motion that best moves the pins to where the targets see their vertices. What no target sees counts as
 /// agreement. @param vertices #V by 3, after a step under both [m]. @param pins in ascending order of their
 /// vertices.
 double pinConflict(const std::vector<Target>& targets, const Tets& tets, const Points& vertices,

@@ -42,12 +42,11 @@ class Simulator {
   /// Advances to `stamp` under the targets. A TargetSet with `reset` first places the rest shape at
   /// body_pose, without velocity. If `stamp` is not after the last one, no time elapses and only the targets
   /// act. If it throws, the state does not change. With projective dynamics and without estimated loads it
-  /// allocates only in the first steps after a change of topology, and when the number of targets or contacts
-  /// exceeds all earlier ones.
-  /// @throw std::invalid_argument if the body is not placed, if the revision is not the topology's or one of
-  /// the last few, or if a target cannot be used (tet, finite numbers, barycentric coordinates within 100,
-  /// weight within largestStiffness, within reachOf() of its place in the body or in the rest shape at
-  /// body_pose). @throw std::runtime_error if the step has no finite solution.
+  /// allocates memory only in the first steps after a change of topology, or for more targets or contacts
+  /// than ever before. @throw std::invalid_argument if the body is not placed, if the revision is not the
+  /// topology's or one of the last few, or if a target cannot be used (tet, finite numbers, barycentric
+  /// coordinates within 100, weight within largestStiffness, within reachOf() of its place in the body or in
+  /// the rest shape at body_pose). @throw std::runtime_error if the step has no finite solution.
   void step(const TargetSet& targets, Nanoseconds stamp, const Surroundings& surroundings = {});
 
   /// Whether the body has been driven away: it is placed, but not one target is within reachOf() of its place

@@ -10,8 +10,8 @@ namespace softbody {
 /// Points that move with tets. At rest each point is at its material place. Corrections can shift the points
 /// to given positions in one deformed state. A correction is stored in the material frame of the point's tet,
 /// so that it turns and stretches with the tet. If that tet is too flat, the frame of a neighbour is used.
-/// The correction is scaled with the strain of the piece, relative to the strain in the state in which the
-/// correction was made, or to a larger one that would explain its size: 0 at rest, at most 1.
+/// The correction is scaled by the strain of the piece over the strain at which the correction was made (or
+/// over a larger one that would explain its size): 0 at rest, at most 1.
 class TetBinding {
  public:
   TetBinding(const TetTopology& volume, std::vector<MaterialPoint> places);

@@ -35,8 +35,8 @@ struct ActivePeriod {
   bool holdsStep(double time_step_s) const;
 };
 
-/// Pins of one name in a plan: those that hold at present, or a region that takes hold of the body at the
-/// begin of its period.
+/// The pins of one name in a plan: those that hold at present, or a region that takes hold at the beginning
+/// of its period.
 struct PlannedPins {
   std::string name;
   std::vector<Pin> held;                                    ///< at present, if there is no region

@@ -23,10 +23,10 @@ class BodySurface {
   /// Whether in() would give the same.
   bool isIn(const TetTopology& volume) const;
 
-  /// The vertices of the tets to hold, ascending: those in the box, and where these carry less than half of a
-  /// point of the surface in the box, all that carry it. So the held part ends at the tets' vertices that are
-  /// nearest to the side of the box, and a box that is smaller than a tet holds what is seen in it.
-  /// @param vertices #V by 3, of the volume of in() [m]. @param T_box_points from their frame to the box's.
+  /// The vertices of the tets to hold, ascending: those in the box. If they carry less than half of a surface
+  /// point in the box, all vertices that carry it are held, too. So a box that is smaller than a tet holds
+  /// what is seen in it. @param vertices #V by 3, of the volume of in() [m]. @param T_box_points from their
+  /// frame to the box's.
   std::vector<int> verticesToHold(const Eigen::AlignedBox3d& box, const Eigen::Isometry3d& T_box_points,
                                   const Points& vertices) const;
 

@@ -33,16 +33,12 @@ struct UnpairedImages {
 
 /// Pairs each colour image with the depth image nearest in time. Live graph, replay and evaluation all use
 /// this rule. It uses only the stamps and the order in which the images of each stream arrive, and no clock.
-/// So a recording gives the same frames as the live graph.
-///
-/// An image with an odd stamp waits for the next ones. If they follow it, time has moved and no image is lost
-/// (see Timeline). Otherwise it is dropped.
-///
-/// A pair is complete as soon as no image nearer in time can come. Two facts show this: stamps in a stream
-/// increase, and the next image of a stream comes at least half of the shortest gap so far after the last
-/// one. A pair with equal stamps is complete at once. A colour image without a depth image makes a frame,
-/// too, but only within kLongestWithoutDepth of one with depth. After that, the depth stream has stopped or
-/// has another clock.
+/// So a recording gives the same frames as the live graph.  An image with an odd stamp waits for the next
+/// ones. If they follow it, time has moved and no image is lost (see Timeline). Otherwise it is dropped.  A
+/// pair is complete as soon as no image nearer in time can come. Two facts show this. Stamps in a stream
+/// increase. And the next image comes after at least half of the shortest gap so far. A pair with equal
+/// stamps is complete at once. A colour image without a depth image makes a frame, too, but only within
+/// kLongestWithoutDepth of one with depth. After that, the depth stream has stopped or has another clock.
 /// @tparam ColorPtr, DepthPtr, InfoPtr pointers to the images and to the camera's description; null: none.
 template <typename ColorPtr, typename DepthPtr, typename InfoPtr>
 class FramePairer {

@@ -9,8 +9,8 @@
 
 namespace softbody {
 
-/// A surface that another tracker follows. Its states come late: the surface goes on as it moved between the
-/// last two of them, and how far that was off last time is a part of its deviation.
+/// A surface that another tracker follows. Its states come late. Meanwhile the surface keeps the motion
+/// between the last two of them. The error of this motion last time is a part of its deviation.
 class FollowedSurface {
  public:
   explicit FollowedSurface(std::string name) : name_(std::move(name)) {}

@@ -8,8 +8,8 @@
 
 namespace softbody {
 
-/// Coloured points for rviz, without a header. A marker replaces the one before. rviz keeps point clouds
-/// instead, for as long as their stamps are in its future, so after each jump back of time.
+/// Coloured points for rviz, without a header. A marker replaces the one before. rviz would keep point clouds
+/// after each jump back of time, as long as their stamps are in its future.
 visualization_msgs::Marker makePointsMarker(const std::vector<ColoredPoint>& points);
 
 }  // namespace softbody

@@ -40,8 +40,8 @@ struct SearchReport {
   bool outside = false;    ///< the best pose is farther from that one than its uncertainty
   double shift_m = 0.0;    ///< of the best pose from it
   double turn_rad = 0.0;   ///< the same
-  /// Of a body with a picture that was not found: the poses that were tried (0: no picture, or near a pose);
-  /// those that depth refuses, and those at which something else than the picture is seen.
+  /// If a body with a picture was not found: number of poses that were tried (0: no picture, or near a pose),
+  /// that depth refuses, and at which something else than the picture is seen.
   std::size_t pictured = 0, refused_by_depth = 0, refused_by_picture = 0;
   bool several_places = false;  ///< the picture is seen in several places
   /// The mesh times this factor would be found; empty: no such factor is known.
