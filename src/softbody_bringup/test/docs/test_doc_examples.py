@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """Every example of README.md and docs runs: bash blocks in order, page by page; YAML blocks are loaded by their tool.
-Log sentences that a page quotes are those of the sources."""
+Log sentences that a page quotes are those of the sources, and programs that it shows are the files that it names."""
 import atexit
 import glob
 import os
+import re
 import signal
 import sys
 import tempfile
@@ -62,6 +63,17 @@ class DocExamples(unittest.TestCase):
                 ("```yaml\nfeature_tracker: {no_such_parameter: 1}\n```\n", "no_such_parameter")):
             with self.assertRaisesRegex(self.failureException, reason):
                 self.run_page(broken, "broken")
+
+    def test_shown_files(self):
+        shown = set()
+        for page in PAGES:
+            with open(f"{ROOT}/{page}", encoding="utf-8") as file:
+                for path, text in re.findall(r"<!-- file: (\S+) -->\n```cpp\n(.*?)```", file.read(), re.DOTALL):
+                    with open(f"{ROOT}/{path}", encoding="utf-8") as source:
+                        self.assertEqual(source.read(), text, f"{page} does not show {path} as it is")
+                    shown.add(path)
+        self.assertEqual(shown, {os.path.relpath(path, ROOT) for pattern in ("*.cpp", "*.h")
+                                 for path in glob.glob(f"{ROOT}/src/softbody_bringup/test/downstream/{pattern}")})
 
     def test_quoted_log_sentences(self):
         sources, wrong = log_sentences.literals(ROOT), []
