@@ -14,7 +14,7 @@ NOT_ON_PAGE = {"tool", "blade", "marker_board"}
 DECLARATION = re.compile(r"\bconstexpr\s+[\w:<>, ]*?\b(k[A-Z]\w*[^;]*);", re.DOTALL)
 NAME = re.compile(r"\s*(k[A-Z]\w*)\s*(?:\[[^\]]*\])?(.*)", re.DOTALL)
 FOLLOWS = re.compile(r"\bk[A-Z]")
-ROW = re.compile(r"^\| `([\w/.]+)` \| `(k\w+)` \|", re.MULTILINE)
+ROW = re.compile(r"^\| `([\w/.]+)` \| ((?:`k\w+`(?:, )?)+) \|", re.MULTILINE)
 
 
 def declared(text):
@@ -48,7 +48,8 @@ def chosen(root):
 def main():
     root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else ".")
     page = root / "docs/pipeline/rules.md"
-    listed, present = set(ROW.findall(page.read_text())), chosen(root)
+    listed = {(file, name) for file, names in ROW.findall(page.read_text()) for name in re.findall(r"k\w+", names)}
+    present = chosen(root)
     faults = [f"{file}: {name} is missing in {page}" for file, name in sorted(present - listed)]
     faults += [f"{page}: {file} has no chosen constant {name}" for file, name in sorted(listed - present)]
     print("\n".join(faults), end="\n" if faults else "")
