@@ -1,21 +1,17 @@
-#!/usr/bin/env python3
 """The action model_server/prepare_model: the folder of the tool, progress, cancel, and clear errors."""
 import filecmp
 import os
 import subprocess
-import sys
 import tempfile
 import unittest
 
 import actionlib
 import rospkg
 import rospy
-import rostest
 from actionlib_msgs.msg import GoalStatus
 from softbody_msgs.msg import PrepareModelAction, PrepareModelGoal
 
-sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "shared"))
-from recorder import PATIENCE_S  # pylint: disable=wrong-import-position
+from recorder import PATIENCE_S
 
 CONFIG = rospkg.RosPack().get_path("softbody_bringup") + "/config"
 SPONGE, DOLL = f"{CONFIG}/sponge.obj", f"{CONFIG}/doll.obj"
@@ -104,8 +100,3 @@ class PrepareModel(unittest.TestCase):
             self.assertEqual((state, result.object, result.verdict), (GoalStatus.ABORTED, "", ""), change)
             self.assertIn(words, result.message)
         self.assertEqual(files_of(self.folder), ["foreign/object.yaml"])
-
-
-if __name__ == "__main__":
-    rospy.init_node("test_prepare_model")
-    rostest.rosrun("softbody_bringup", "prepare_model", PrepareModel, sys.argv)

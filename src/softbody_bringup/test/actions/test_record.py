@@ -1,7 +1,5 @@
-#!/usr/bin/env python3
 """The action recorder/record: whole bags under their names only, progress, cancel, and clear errors."""
 import os
-import sys
 import tempfile
 import threading
 import unittest
@@ -9,13 +7,11 @@ import unittest
 import actionlib
 import rosbag
 import rospy
-import rostest
 from actionlib_msgs.msg import GoalStatus
 from softbody_msgs.msg import RecordAction, RecordGoal
 from std_msgs.msg import String
 
-sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "shared"))
-from recorder import PATIENCE_S  # pylint: disable=wrong-import-position
+from recorder import PATIENCE_S
 
 RESULT = ["/softbody/status", "/softbody/surface/state", "/softbody/surface/topology", "/softbody/timing",
           "/softbody/volume/state", "/softbody/volume/topology", "/tf", "/tf_static"]
@@ -136,8 +132,3 @@ class Record(unittest.TestCase):
         self.assertEqual((state, result.path), (GoalStatus.ABORTED, ""))
         self.assertIn(f"{self.file}: cannot be written: File too large", result.message)
         self.assertEqual(os.listdir(self.folder), [])
-
-
-if __name__ == "__main__":
-    rospy.init_node("test_record")
-    rostest.rosrun("softbody_bringup", "record", Record, sys.argv)

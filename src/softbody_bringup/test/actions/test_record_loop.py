@@ -1,20 +1,15 @@
-#!/usr/bin/env python3
 """The action recorder/record counts the time that goes by on ROS time: it begins late, and jumps back in each loop of a bag."""
-import os
-import sys
 import tempfile
 import time
 import unittest
 
 import actionlib
 import rospy
-import rostest
 from actionlib_msgs.msg import GoalStatus
 from rosgraph_msgs.msg import Clock
 from softbody_msgs.msg import RecordAction, RecordGoal
 
-sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "shared"))
-from recorder import PATIENCE_S  # pylint: disable=wrong-import-position
+from recorder import PATIENCE_S
 
 BEGIN_S, LOOP_S, DURATION_S = 1000.0, 0.5, 1.2  # of the clock; the recording lasts for more than two loops
 STEP_S = 0.01
@@ -49,8 +44,3 @@ class RecordLoop(unittest.TestCase):
         seconds = [progress.seconds for progress in self.progress]
         self.assertEqual(seconds, sorted(seconds))
         self.assertLess(seconds[-1], DURATION_S)
-
-
-if __name__ == "__main__":
-    rospy.init_node("test_record_loop")
-    rostest.rosrun("softbody_bringup", "record_loop", RecordLoop, sys.argv)

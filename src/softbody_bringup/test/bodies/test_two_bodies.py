@@ -1,16 +1,11 @@
-#!/usr/bin/env python3
 """Two bodies pass each other before one camera. Each has its own graph, and each follows its own body."""
-import os
-import sys
 import unittest
 
 import numpy as np
 import rospy
-import rostest
 from softbody_msgs.msg import MeshState, TrackingStatus
 
-sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "shared"))
-from recorder import Recorder  # pylint: disable=wrong-import-position
+from recorder import Recorder
 
 MAX_MEAN_M = 0.004  # the bodies are 200 mm long, and lie 230 mm beside each other at the start
 
@@ -47,8 +42,3 @@ class TwoBodies(unittest.TestCase):
             self.assertLess(np.mean(found), MAX_MEAN_M)
             known = rospy.get_param(f"/{name}/feature_tracker/known_surfaces")
             self.assertEqual(known, [{"first": "/second/surface", "second": "/first/surface"}[name]])
-
-
-if __name__ == "__main__":
-    rospy.init_node("test_two_bodies")
-    rostest.rosrun("softbody_bringup", "test_two_bodies", TwoBodies, sys.argv)

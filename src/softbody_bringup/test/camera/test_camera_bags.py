@@ -1,18 +1,14 @@
-#!/usr/bin/env python3
 """Bags with compressed images, with other topic names, with shifted depth, and no bag at all."""
 import os
 import subprocess
-import sys
 import tempfile
 import unittest
 
 import numpy as np
 import rosbag
-import rostest
 from softbody.compress_bag import pixels_of
 
-sys.path.append(os.path.dirname(os.path.abspath(__file__)))
-from compressed_bag import BAG, COLOR, DEPTH, SHARE, copy_bag  # pylint: disable=wrong-import-position
+from compressed_bag import BAG, COLOR, DEPTH, SHARE, copy_bag
 
 OBJECT = f"{SHARE}/config/sponge.yaml"
 RENAMED = {COLOR: "/rgb/image_raw", "/camera/color/camera_info": "/rgb/camera_info",
@@ -93,7 +89,3 @@ class CameraBags(unittest.TestCase):
             refused = tool(name, self.path("nothing.bag"), *more)
             self.assertEqual(refused.returncode, 2, name)
             self.assertIn(f"File does not exist: {self.path('nothing.bag')}", refused.stdout + refused.stderr)
-
-
-if __name__ == "__main__":
-    rostest.rosrun("softbody_bringup", "test_camera_bags", CameraBags, sys.argv)

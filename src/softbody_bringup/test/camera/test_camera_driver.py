@@ -1,20 +1,15 @@
-#!/usr/bin/env python3
 """The launch file of a camera's driver, with what this driver publishes: rectified colour, depth and their CameraInfo."""
-import os
 import sys
 import unittest
 
 import numpy as np
 import rosgraph
 import rospy
-import rostest
 from sensor_msgs.msg import CameraInfo, Image
 from softbody_msgs.msg import MeshTopology, TetTopology, TrackingStatus
 
-sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "shared"))
-sys.path.append(os.path.dirname(os.path.abspath(__file__)))
-from driver_camera import DEPTH_M, DRIVERS, DriverCamera  # pylint: disable=wrong-import-position
-from recorder import Recorder  # pylint: disable=wrong-import-position
+from driver_camera import DEPTH_M, DRIVERS, DriverCamera
+from recorder import Recorder
 
 DRIVER = sys.argv[sys.argv.index("--driver") + 1]
 
@@ -47,8 +42,3 @@ class CameraDriver(unittest.TestCase):
         publishers = dict(rosgraph.Master(rospy.get_name()).getSystemState()[0])
         for topic in ("rgb/image_rect_color", "status", "volume/topology", "surface/topology"):
             self.assertEqual(publishers[f"/softbody/{topic}"], ["/driver/manager"], topic)
-
-
-if __name__ == "__main__":
-    rospy.init_node("test_camera_driver")
-    rostest.rosrun("softbody_bringup", "test_camera_driver_" + DRIVER, CameraDriver, sys.argv)

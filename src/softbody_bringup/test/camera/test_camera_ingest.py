@@ -1,18 +1,12 @@
-#!/usr/bin/env python3
 """What camera_ingest says of its streams, in the log and in /diagnostics, and what it leaves out."""
-import os
-import sys
 import unittest
 
-import rospy
-import rostest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from rosgraph_msgs.msg import Log
 from sensor_msgs.msg import Image
 
-sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "shared"))
-from hand_made_camera import TOPICS, Camera  # pylint: disable=wrong-import-position
-from recorder import Recorder  # pylint: disable=wrong-import-position
+from hand_made_camera import TOPICS, Camera
+from recorder import Recorder
 
 DEPTH_FRAME = "camera_depth_optical_frame"
 RESULT = "softbody/rgb/image_rect_color"
@@ -86,8 +80,3 @@ class CameraIngest(unittest.TestCase):
     def test_a_clock_that_is_ahead_is_named(self):
         self.camera.be(late_by_s=-100.0)
         self.wait_for_status(DiagnosticStatus.WARN, "100.0 s ahead")
-
-
-if __name__ == "__main__":
-    rospy.init_node("test_camera_ingest")
-    rostest.rosrun("softbody_bringup", "test_camera_ingest", CameraIngest, sys.argv)

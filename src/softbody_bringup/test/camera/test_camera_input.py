@@ -1,19 +1,12 @@
-#!/usr/bin/env python3
 """Transports that Debian has no plugins for, and what camera_ingest advises when it cannot make a frame."""
-import os
-import sys
 import unittest
 
 import numpy as np
-import rospy
-import rostest
 from rosgraph_msgs.msg import Log
 from sensor_msgs.msg import Image
 
-sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "shared"))
-sys.path.append(os.path.dirname(os.path.abspath(__file__)))
-from driver_camera import COLOR, DEPTH_M, DriverCamera, Stream  # pylint: disable=wrong-import-position
-from recorder import Recorder  # pylint: disable=wrong-import-position
+from driver_camera import COLOR, DEPTH_M, DriverCamera, Stream
+from recorder import Recorder
 
 SIZE = (160, 120)
 
@@ -88,8 +81,3 @@ class CameraInput(unittest.TestCase):
 
     def test_depth_of_another_size_needs_its_camera_info(self):
         self.expect_advice("unregistered", "not registered", "80x60 and 160x120", "depth_info:=")
-
-
-if __name__ == "__main__":
-    rospy.init_node("test_camera_input")
-    rostest.rosrun("softbody_bringup", "test_camera_input", CameraInput, sys.argv)

@@ -1,17 +1,11 @@
-#!/usr/bin/env python3
 """/diagnostics and the log tell how far colour and depth are apart in time, and that the camera has another clock."""
-import os
-import sys
 import unittest
 
-import rospy
-import rostest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from rosgraph_msgs.msg import Log
 
-sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "shared"))
-from hand_made_camera import Camera  # pylint: disable=wrong-import-position
-from recorder import Recorder  # pylint: disable=wrong-import-position
+from hand_made_camera import Camera
+from recorder import Recorder
 
 NODE, SYNC = "/softbody/camera_ingest", "camera_ingest: sync offset"
 OK, WARN = DiagnosticStatus.OK, DiagnosticStatus.WARN
@@ -58,8 +52,3 @@ class CameraTimes(unittest.TestCase):
         said = self.recorder.wait_for_log(NODE, "ahead of this machine's clock").msg
         self.assertIn("synchronise the camera's clock", said)
         self.recorder.wait_for_status("camera_ingest: frames", WARN, "ahead of this machine's clock")
-
-
-if __name__ == "__main__":
-    rospy.init_node("test_camera_times")
-    rostest.rosrun("softbody_bringup", "test_camera_times", CameraTimes, sys.argv)

@@ -1,19 +1,14 @@
-#!/usr/bin/env python3
 """What camera_ingest says of its streams while /clock stands still, so early that no period in ROS time has passed."""
-import os
-import sys
 import threading
 import time
 import unittest
 
 import rospy
-import rostest
 from rosgraph_msgs.msg import Clock, Log
 from sensor_msgs.msg import CameraInfo
 
-sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "shared"))
-from hand_made_camera import TOPICS, Camera  # pylint: disable=wrong-import-position
-from recorder import Recorder  # pylint: disable=wrong-import-position
+from hand_made_camera import TOPICS, Camera
+from recorder import Recorder
 
 
 class HeldCamera(unittest.TestCase):
@@ -43,8 +38,3 @@ class HeldCamera(unittest.TestCase):
                              (TOPICS["depth"] + ": an image without a stamp", {"unstamped": ("depth",)})):
             self.camera.be(**fault)
             self.recorder.wait_for_log("/softbody/camera_ingest", words)
-
-
-if __name__ == "__main__":
-    rospy.init_node("test_held_camera")
-    rostest.rosrun("softbody_bringup", "test_held_camera", HeldCamera, sys.argv)

@@ -1,17 +1,11 @@
-#!/usr/bin/env python3
 """What camera_ingest says before a camera that starts later, and of one that falls silent."""
-import os
-import sys
 import unittest
 
-import rospy
-import rostest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from rosgraph_msgs.msg import Log
 
-sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "shared"))
-from hand_made_camera import TOPICS, Camera  # pylint: disable=wrong-import-position
-from recorder import Recorder  # pylint: disable=wrong-import-position
+from hand_made_camera import TOPICS, Camera
+from recorder import Recorder
 
 NODE, WAITING, SILENT = "/softbody/camera_ingest", "waiting for the first frame", "no frame for"
 
@@ -34,8 +28,3 @@ class LateCamera(unittest.TestCase):
         self.assertIn(f"the sender of {TOPICS['color']} must set header.stamp", said.msg)
         self.assertNotIn("ROS_IP", said.msg)
         camera.stop()
-
-
-if __name__ == "__main__":
-    rospy.init_node("test_late_camera")
-    rostest.rosrun("softbody_bringup", "test_late_camera", LateCamera, sys.argv)

@@ -1,20 +1,15 @@
-#!/usr/bin/env python3
 """Masks of the user's own segmentation: only what they show is measured; frames without one are tracked without."""
-import os
-import sys
 import threading
 import unittest
 
 import numpy as np
 import rospy
-import rostest
 from rosgraph_msgs.msg import Log
 from sensor_msgs import point_cloud2
 from sensor_msgs.msg import CameraInfo, Image, PointCloud2
 from softbody_msgs.msg import Targets, TrackingStatus
 
-sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "shared"))
-from recorder import Recorder  # pylint: disable=wrong-import-position
+from recorder import Recorder
 
 FRAMES = 5
 MARGIN_PX = 3
@@ -113,8 +108,3 @@ class Mask(unittest.TestCase):
     def answer(self, mask, image):
         mask.header = image.header
         self.segmentation.publisher.publish(mask)
-
-
-if __name__ == "__main__":
-    rospy.init_node("test_mask")
-    rostest.rosrun("softbody_bringup", "test_mask", Mask, sys.argv)

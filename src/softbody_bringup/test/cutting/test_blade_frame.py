@@ -1,23 +1,18 @@
-#!/usr/bin/env python3
 """A blade in another frame than the camera's is found by tf, without an output_frame too: nothing is measured on it; where tf
 does not know its frame, that is said and the body is measured as if there were none; where tf comes later than the blade, the
 blade counts from then on; a blade of another clock is told of."""
-import os
-import sys
 import time
 import unittest
 
 import numpy as np
 import rospy
-import rostest
 from geometry_msgs.msg import Point32, PolygonStamped, TransformStamped
 from rosgraph_msgs.msg import Log
 from sensor_msgs.msg import CameraInfo
 from softbody_msgs.msg import Targets
 from tf2_ros import StaticTransformBroadcaster, TransformBroadcaster
 
-sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "shared"))
-from recorder import Recorder  # pylint: disable=wrong-import-position
+from recorder import Recorder
 
 CAMERA, BENCH, LATE, NOWHERE = "camera_color_optical_frame", "bench", "late", "nowhere"
 ORIGIN, SIGNS = np.array([0.3, -0.2, 0.9]), np.array([-1.0, -1.0, 1.0])  # of the bench: half a turn about z
@@ -111,8 +106,3 @@ class BladeFrame(unittest.TestCase):
     def test_4_a_clock_that_is_ahead(self):
         type(self).ahead_s = 50.0
         self.recorder.wait_for_log("/softbody/feature_tracker", "50.0 s ahead of the frame's")
-
-
-if __name__ == "__main__":
-    rospy.init_node("test_blade_frame")
-    rostest.rosrun("softbody_bringup", "test_blade_frame", BladeFrame, sys.argv)

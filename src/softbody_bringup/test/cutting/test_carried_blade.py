@@ -1,13 +1,9 @@
-#!/usr/bin/env python3
 """A blade that a frame of tf carries: without the frame the log says so and nothing is cut; with it tool/pose, tool/blade
 and the tf of the tool come with the stamp of each image, and the blade cuts the body in two."""
-import os
-import sys
 import unittest
 
 import numpy as np
 import rospy
-import rostest
 from geometry_msgs.msg import PolygonStamped, PoseStamped, PoseWithCovarianceStamped, TransformStamped
 from rosgraph_msgs.msg import Log
 from sensor_msgs.msg import CameraInfo
@@ -15,8 +11,7 @@ from softbody_msgs.msg import MeshTopology
 from tf2_msgs.msg import TFMessage
 from tf2_ros import TransformBroadcaster
 
-sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "shared"))
-from recorder import Recorder  # pylint: disable=wrong-import-position
+from recorder import Recorder
 
 
 def place(pose):
@@ -61,8 +56,3 @@ class CarriedBlade(unittest.TestCase):
                 if t.child_frame_id == "tool"}
         self.assertTrue(sent)
         self.assertLessEqual(sent, images)
-
-
-if __name__ == "__main__":
-    rospy.init_node("test_carried_blade")
-    rostest.rosrun("softbody_bringup", "test_carried_blade", CarriedBlade, sys.argv)

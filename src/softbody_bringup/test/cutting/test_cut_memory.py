@@ -1,6 +1,4 @@
-#!/usr/bin/env python3
 """The memory of simulator and surface stays bounded over many cuts and undos. Prints what they need."""
-import sys
 import time
 import unittest
 from xmlrpc.client import ServerProxy
@@ -8,7 +6,6 @@ from xmlrpc.client import ServerProxy
 import numpy as np
 import rosgraph
 import rospy
-import rostest
 from geometry_msgs.msg import Point, Vector3
 from softbody_msgs.msg import MeshTopology
 from softbody_msgs.srv import CutBody
@@ -77,8 +74,3 @@ class CutMemory(unittest.TestCase):
 
     def test_doll(self):
         self.expect_bounded("doll", 50, 0.01, 600)
-
-
-if __name__ == "__main__":
-    rospy.init_node("test_cut_memory")
-    rostest.rosrun("softbody_bringup", "cut_memory", CutMemory, sys.argv)

@@ -1,20 +1,16 @@
-#!/usr/bin/env python3
 """A body is cut before the camera: every image is answered by one state of the volume and one of the surface."""
 import os
 import subprocess
-import sys
 import tempfile
 import time
 import unittest
 
 import rosbag
 import rospy
-import rostest
 from sensor_msgs.msg import CameraInfo, Image
 from softbody_msgs.msg import Cut, MeshState, MeshTopology, StageTiming, TetTopology
 
-sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "shared"))
-from recorder import Recorder  # pylint: disable=wrong-import-position
+from recorder import Recorder
 
 TYPES = {"/camera/color/image_raw": Image, "/camera/color/camera_info": CameraInfo,
          "/camera/aligned_depth_to_color/image_raw": Image, "/camera/aligned_depth_to_color/camera_info": CameraInfo}
@@ -89,8 +85,3 @@ class CutStream(unittest.TestCase):
                 self.assertEqual(len(state.vertices), sizes[state.revision])
         last = self.recorder.messages["softbody/surface/topology"][-1]
         self.assertEqual(1 + max(last.triangle_bodies), 2)
-
-
-if __name__ == "__main__":
-    rospy.init_node("test_cut_stream")
-    rostest.rosrun("softbody_bringup", "cut_stream", CutStream, sys.argv)

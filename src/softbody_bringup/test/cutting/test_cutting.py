@@ -1,13 +1,9 @@
-#!/usr/bin/env python3
 """Cuts by service and by a blade made by hand; simulator and surface keep step."""
-import os
-import sys
 import time
 import unittest
 
 import numpy as np
 import rospy
-import rostest
 from geometry_msgs.msg import Point, Point32, PolygonStamped, Pose, Quaternion, TransformStamped, Vector3
 from rosgraph_msgs.msg import Log
 from softbody_msgs.msg import Cut, MeshState, MeshTopology, Targets, TetTopology
@@ -16,8 +12,7 @@ from std_srvs.srv import Trigger
 from tf2_ros import StaticTransformBroadcaster
 from visualization_msgs.msg import Marker, MarkerArray
 
-sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "shared"))
-from recorder import Recorder  # pylint: disable=wrong-import-position
+from recorder import Recorder
 
 FRAME = "made_by_hand"
 
@@ -245,8 +240,3 @@ class Cutting(unittest.TestCase):
                 self.blade.publish(blade)
                 rospy.sleep(0.05)
             self.recorder.wait_for_log("/softbody/surface", words)
-
-
-if __name__ == "__main__":
-    rospy.init_node("test_cutting")
-    rostest.rosrun("softbody_bringup", "cutting", Cutting, sys.argv)

@@ -1,17 +1,12 @@
-#!/usr/bin/env python3
 """A recorded cut is played: the body falls into two pieces, whether the knife is tracked by its marker or known by tf."""
-import os
-import sys
 import unittest
 
 import rospy
-import rostest
 from geometry_msgs.msg import PoseStamped, TransformStamped
 from softbody_msgs.msg import MeshTopology
 from tf2_ros import TransformBroadcaster
 
-sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "shared"))
-from recorder import Recorder  # pylint: disable=wrong-import-position
+from recorder import Recorder
 
 
 class RecordedCut(unittest.TestCase):
@@ -35,8 +30,3 @@ class RecordedCut(unittest.TestCase):
             setattr(transform.transform.translation, axis, getattr(pose.pose.position, axis))
         transform.transform.rotation = pose.pose.orientation
         broadcaster.sendTransform(transform)
-
-
-if __name__ == "__main__":
-    rospy.init_node("test_recorded_cut")
-    rostest.rosrun("softbody_bringup", "test_recorded_cut", RecordedCut, sys.argv)

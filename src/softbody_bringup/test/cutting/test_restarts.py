@@ -1,9 +1,7 @@
-#!/usr/bin/env python3
 """Simulator and surface have the same cuts: after cuts that one of them cannot make, and after either was killed."""
 import copy
 import os
 import signal
-import sys
 import time
 import unittest
 from xmlrpc.client import ServerProxy
@@ -11,7 +9,6 @@ from xmlrpc.client import ServerProxy
 import numpy as np
 import rosgraph
 import rospy
-import rostest
 from geometry_msgs.msg import Point, Point32, Pose, Quaternion, Vector3
 from rosgraph_msgs.msg import Log
 from shape_msgs.msg import MeshTriangle
@@ -19,8 +16,7 @@ from softbody_msgs.msg import Cut, CutHistory, MeshState, MeshTopology, Targets,
 from softbody_msgs.srv import CutBody
 from std_srvs.srv import Trigger
 
-sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "shared"))
-from recorder import Recorder  # pylint: disable=wrong-import-position
+from recorder import Recorder
 
 VOLUME, SURFACE = "softbody/volume/topology", "softbody/surface/topology"
 SIMULATOR_NODE, SURFACE_NODE = "/softbody/simulator", "/softbody/surface"
@@ -204,8 +200,3 @@ class Restarts(unittest.TestCase):
         self.expect_agreement(0, 1, reset=True)
         self.cut()
         self.expect_agreement(1, 2)
-
-
-if __name__ == "__main__":
-    rospy.init_node("test_restarts")
-    rostest.rosrun("softbody_bringup", "restarts", Restarts, sys.argv)

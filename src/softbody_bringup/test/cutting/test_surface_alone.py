@@ -1,15 +1,12 @@
-#!/usr/bin/env python3
 """The surface under a volume made by hand, with no simulator: a box of tets around the visual mesh."""
 import os
 import copy
 import itertools
-import sys
 import time
 import unittest
 
 import numpy as np
 import rospy
-import rostest
 import tf2_ros
 from geometry_msgs.msg import Point, Point32, TransformStamped, Vector3
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
@@ -20,8 +17,7 @@ from sensor_msgs.msg import PointCloud2
 from sensor_msgs import point_cloud2
 from softbody_msgs.srv import ClosestPoint, CutBody, SaveMesh
 
-sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "shared"))
-from recorder import Recorder  # pylint: disable=wrong-import-position
+from recorder import Recorder
 
 FRAME = "made_by_hand"
 HALF_SIZE_M = np.array([0.11, 0.06, 0.03])
@@ -281,8 +277,3 @@ class SurfaceAlone(unittest.TestCase):
         state = self.surface_for(self.corners, 30)
         np.testing.assert_allclose(array(state.vertices), array(self.surface.rest_vertices), atol=2e-6)
         self.topology_publisher.publish(self.topology)
-
-
-if __name__ == "__main__":
-    rospy.init_node("test_surface_alone")
-    rostest.rosrun("softbody_bringup", "test_surface_alone", SurfaceAlone, sys.argv)

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """The displays of the volume in track.rviz: each shows something if it is switched on, and nothing otherwise. All displays
 follow the namespace of rviz."""
 import sys
@@ -7,7 +6,6 @@ import unittest
 import rosgraph
 import rospkg
 import rospy
-import rostest
 import yaml
 from geometry_msgs.msg import Point32, Pose, Quaternion
 from shape_msgs.msg import MeshTriangle
@@ -15,8 +13,8 @@ from softbody_msgs.msg import MeshState, Target, Targets, Tetrahedron, TetTopolo
 
 PACKAGES = rospkg.RosPack()
 sys.path.append(PACKAGES.get_path("softbody_rviz_plugins") + "/test/ros")
-from hand_made_body import FRAME, SIDE  # pylint: disable=wrong-import-position
-from rviz_screen import Rviz, pixels_of  # pylint: disable=wrong-import-position
+from hand_made_body import FRAME, SIDE
+from rviz_screen import Rviz, pixels_of
 
 CONFIGURATION = PACKAGES.get_path("softbody_bringup") + "/rviz/track.rviz"
 EDGES, ARROW = (230, 230, 230), (80, 220, 100)  # default colours of the low-resolution mesh and of a feature's target
@@ -64,6 +62,10 @@ def subscribed(prefix):
 
 
 class TestConfiguration(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.publishers = publish()
+
     def displays(self, *names):
         """The configuration's displays of the volume; those of these names are switched on."""
         with open(CONFIGURATION, encoding="utf-8") as file:
@@ -104,9 +106,3 @@ class TestConfiguration(unittest.TestCase):
     def test_each_display_shows_its_own(self):
         self.expect(["Low-resolution mesh", "Targets"], edges=True, arrow=True, face=False)
         self.expect(["Tets"], edges=False, arrow=False, face=True)
-
-
-if __name__ == "__main__":
-    rospy.init_node("test_rviz_configuration")
-    PUBLISHERS = publish()
-    rostest.rosrun("softbody_bringup", "rviz_configuration", TestConfiguration)

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Every example of README.md and docs runs: bash blocks in order, page by page; YAML blocks are loaded by their tool.
 Log sentences that a page quotes are those of the sources, and programs that it shows are the files that it names."""
 import atexit
@@ -11,9 +10,7 @@ import tempfile
 import unittest
 
 import rospkg
-import rostest
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import doc_pages
 import example_runner
 import log_sentences
@@ -26,6 +23,7 @@ PAGES = ["README.md", *sorted(os.path.relpath(path, ROOT) for path in glob.glob(
 class DocExamples(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
+        signal.signal(signal.SIGTERM, lambda number, frame: sys.exit(1))
         cls.scratch = tempfile.TemporaryDirectory(prefix="doc_examples_")
         cls.addClassCleanup(cls.scratch.cleanup)
         cls.stand_ins = f"{cls.scratch.name}/stand_ins"
@@ -93,7 +91,3 @@ def page_test(page):
 
 for page_name in PAGES:
     setattr(DocExamples, "test_" + page_name.replace("/", "_").replace(".md", ""), page_test(page_name))
-
-if __name__ == "__main__":
-    signal.signal(signal.SIGTERM, lambda number, frame: sys.exit(1))
-    rostest.rosrun("softbody_bringup", "doc_examples", DocExamples, sys.argv)

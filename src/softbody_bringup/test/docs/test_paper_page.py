@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """docs/paper.md, line by line: every command is there and knows its part, and `replay` takes every parameter with its
 value. Numbers that README.md repeats are those of the pages. In all pages every link leads somewhere."""
 import glob
@@ -10,10 +9,8 @@ import tempfile
 import unittest
 
 import rospkg
-import rostest
 import yaml
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import paper_page
 
 ROOT = os.path.realpath(os.path.join(rospkg.RosPack().get_path("softbody_bringup"), "../.."))
@@ -120,7 +117,3 @@ class PaperPage(unittest.TestCase):
             self.assertEqual(row["error, mean / max [mm]"], distance(surfaces[scene]), scene)
         tear = next(iter(paper_page.table_under("Tearing", self.page).values()))
         self.assertEqual(tear["distance from the true surface, mean / max [mm]"], distance(surfaces["tear"]))
-
-
-if __name__ == "__main__":
-    rostest.rosrun("softbody_bringup", "paper_page", PaperPage, sys.argv)

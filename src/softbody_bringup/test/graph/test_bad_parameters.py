@@ -1,12 +1,9 @@
-#!/usr/bin/env python3
 """A bad parameter ends a node with exit code 1 and a sentence that names key and value."""
 import subprocess
-import sys
 import unittest
 
 import rospkg
 import rospy
-import rostest
 
 OBJECT = rospkg.RosPack().get_path("softbody_bringup") + "/config/sponge.yaml"
 TOOL = rospkg.RosPack().get_path("softbody_bringup") + "/config/knife.yaml"
@@ -54,8 +51,3 @@ class BadParameters(unittest.TestCase):
 
     def test_surface_with_a_missing_object(self):
         self.check("softbody_sim", "surface", {"object": "/nowhere/sponge.yaml"}, ["/nowhere/sponge.yaml"])
-
-
-if __name__ == "__main__":
-    rospy.init_node("test_bad_parameters")
-    rostest.rosrun("softbody_bringup", "test_bad_parameters", BadParameters, sys.argv)

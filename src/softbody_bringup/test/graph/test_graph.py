@@ -1,20 +1,15 @@
-#!/usr/bin/env python3
 """The whole graph on a bag that is played again and again."""
-import os
-import sys
 import unittest
 
 import rosnode
 import rospy
-import rostest
 import tf2_ros
 from diagnostic_msgs.msg import DiagnosticArray
 from sensor_msgs.msg import CameraInfo, Image, PointCloud2
 from softbody_msgs.msg import Forces, MeshState, MeshTopology, StageTiming, Targets, TetTopology, TrackingStatus
 from visualization_msgs.msg import Marker, MarkerArray
 
-sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "shared"))
-from recorder import Recorder  # pylint: disable=wrong-import-position
+from recorder import Recorder
 
 OPTICAL_FRAME = "camera_color_optical_frame"
 BACKGROUND, BODY = 1, 3  # labels of pixels
@@ -126,8 +121,3 @@ class Graph(unittest.TestCase):
         depth_m = buffer.lookup_transform(OPTICAL_FRAME, "softbody", rospy.Time(0)).transform.translation.z
         self.assertTrue(0.3 < depth_m < 0.7, depth_m)
         listener.unregister()
-
-
-if __name__ == "__main__":
-    rospy.init_node("test_graph")
-    rostest.rosrun("softbody_bringup", "test_graph", Graph, sys.argv)

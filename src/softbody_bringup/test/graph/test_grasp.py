@@ -1,19 +1,14 @@
-#!/usr/bin/env python3
 """A virtual gripper takes the sponge at one end, lifts it, sets it down and lets go. The graph holds what the gripper holds,
 and only then; the end between the fingers stays where it is in the truth."""
-import sys
-import os
 import unittest
 
 import numpy as np
 import rospy
-import rostest
 from geometry_msgs.msg import WrenchStamped
 from softbody_msgs.msg import MeshState, MeshTopology, TrackingStatus
 from std_msgs.msg import Bool
 
-sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "shared"))
-from recorder import Recorder  # pylint: disable=wrong-import-position
+from recorder import Recorder
 
 HELD_X_M = 0.05  # rest vertices beyond it are near the fingers
 MAX_MEAN_M, MAX_HELD_M = 0.002, 0.004
@@ -60,8 +55,3 @@ class Grasp(unittest.TestCase):
         self.assertLess(mean, MAX_MEAN_M)
         self.assertLess(at_end, MAX_HELD_M)
         self.assertLess(errors[last].mean(), MAX_MEAN_M)
-
-
-if __name__ == "__main__":
-    rospy.init_node("test_grasp")
-    rostest.rosrun("softbody_bringup", "test_grasp", Grasp, sys.argv)

@@ -1,23 +1,18 @@
-#!/usr/bin/env python3
 """While a bag is held /clock stands still: the service set_pose answers all the same, and the body is tracked from the pose
 set once the clock goes on."""
-import os
-import sys
 import threading
 import time
 import unittest
 
 import numpy as np
 import rospy
-import rostest
 import tf2_ros
 from rosgraph_msgs.msg import Clock
 from softbody_msgs.msg import Targets, TrackingStatus
 from softbody_msgs.srv import SetPose
 
-sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "shared"))
-from poses import ALIKE, CORNERS_M, placed, pose_in, rotation  # pylint: disable=wrong-import-position
-from recorder import PATIENCE_S, Recorder  # pylint: disable=wrong-import-position
+from poses import ALIKE, CORNERS_M, placed, pose_in, rotation
+from recorder import PATIENCE_S, Recorder
 
 OPTICAL_FRAME, TRUE_FRAME = "camera_color_optical_frame", "ground_truth_softbody"
 ROUGH_M = 0.012  # how far off the pose is that is set
@@ -101,8 +96,3 @@ class HeldClock(unittest.TestCase):
             found = placed(targets.body_pose.position, targets.body_pose.orientation, CORNERS_M)
             self.assertLess(np.linalg.norm(found - expected, axis=1).max(), MAX_ERROR_M)
         self.recorder.wait(lambda seen: seen["softbody/status"][-1].state == TrackingStatus.TRACKING, "TRACKING")
-
-
-if __name__ == "__main__":
-    rospy.init_node("test_held_clock")
-    rostest.rosrun("softbody_bringup", "test_held_clock", HeldClock, sys.argv)

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Relative paths given to the launch files start at the caller's directory, not at that of the nodes; output_frame reaches
 all that need it, through every launch file."""
 import importlib.machinery
@@ -6,12 +5,10 @@ import importlib.util
 import os
 import re
 import subprocess
-import sys
 import tempfile
 import unittest
 
 import rospkg
-import rostest
 import yaml
 from roslaunch import config as roslaunch_config
 
@@ -257,7 +254,3 @@ class LaunchArguments(unittest.TestCase):
         nodes = roslaunch(self.directory.name, "--nodes", "softbody_bringup", "track.launch", *GRAPHS["track.launch"],
                           "rviz:=true", "namespace:=/left").split()
         self.assertEqual([node for node in nodes if node.endswith("rviz")], ["/left/rviz"])
-
-
-if __name__ == "__main__":
-    rostest.rosrun("softbody_bringup", "test_launch_arguments", LaunchArguments, sys.argv)

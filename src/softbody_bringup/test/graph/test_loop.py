@@ -1,16 +1,10 @@
-#!/usr/bin/env python3
 """A bag that starts again: time jumps back, and the graph starts again without help."""
-import os
-import sys
 import unittest
 
-import rospy
-import rostest
 from rosgraph_msgs.msg import Log
 from softbody_msgs.msg import MeshState, TrackingStatus
 
-sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "shared"))
-from recorder import Recorder  # pylint: disable=wrong-import-position
+from recorder import Recorder
 
 
 def since_last_jump(messages):
@@ -47,8 +41,3 @@ class Loop(unittest.TestCase):
         self.assertEqual([log.name for log in logs if jumps in log.msg], 2 * ["/softbody/camera_ingest"])
         refused = ("is not used", "is dropped", "is unusable")
         self.assertEqual([log.msg for log in logs if any(words in log.msg for words in refused)], [])
-
-
-if __name__ == "__main__":
-    rospy.init_node("test_loop")
-    rostest.rosrun("softbody_bringup", "test_loop", Loop, sys.argv)

@@ -1,19 +1,14 @@
-#!/usr/bin/env python3
 """A body at rest before a camera that an arm moves is at rest in output_frame; while tf says nothing of the arm, too late,
 or wrongly, frames are left out with the reason, the last good state stays, and tracking goes on as soon as tf is right."""
-import os
-import sys
 import threading
 import unittest
 
 import numpy as np
 import rospy
-import rostest
 from softbody_msgs.msg import MeshState, TrackingStatus
 from tf2_msgs.msg import TFMessage
 
-sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "shared"))
-from recorder import Recorder  # pylint: disable=wrong-import-position
+from recorder import Recorder
 
 FRAME, CAMERA = "world", "camera_link"
 MAX_ERROR_M = 0.003
@@ -134,8 +129,3 @@ class MovingCamera(unittest.TestCase):
         self.errors_from(rospy.Time.now(), 3)
         # The body has jumped back too, and where frames are dropped the tracker needs some to find it.
         self.errors_from(rospy.Time.now(), 5, good=True)
-
-
-if __name__ == "__main__":
-    rospy.init_node("test_moving_camera")
-    rostest.rosrun("softbody_bringup", "moving_camera", MovingCamera, sys.argv)

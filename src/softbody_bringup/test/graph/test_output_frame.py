@@ -1,18 +1,13 @@
-#!/usr/bin/env python3
 """States in another frame than the camera's, a static one of tf: the body is where the truth is, and the knife, which is
 tracked in the camera's frame, cuts it there."""
-import os
-import sys
 import unittest
 
 import numpy as np
 import rospy
-import rostest
 import tf2_ros
 from softbody_msgs.msg import Cut, MeshState
 
-sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "shared"))
-from recorder import Recorder  # pylint: disable=wrong-import-position
+from recorder import Recorder
 
 FRAME, CAMERA = "rig", "camera_color_optical_frame"
 MAX_ERROR_M = 0.005
@@ -60,8 +55,3 @@ class OutputFrame(unittest.TestCase):
         patch = array(cut.patch_vertices)
         self.assertLess(np.abs(patch[:, 0] - 0.015).max(), 0.008)
         self.recorder.wait(lambda seen: seen["softbody/surface/state"][-1].revision > 0, "a state of the cut body")
-
-
-if __name__ == "__main__":
-    rospy.init_node("test_output_frame")
-    rostest.rosrun("softbody_bringup", "output_frame", OutputFrame, sys.argv)

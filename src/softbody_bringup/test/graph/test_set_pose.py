@@ -1,20 +1,15 @@
-#!/usr/bin/env python3
 """Tracking starts again near a pose that the service feature_tracker/set_pose is given, in any frame of tf."""
-import os
-import sys
 import unittest
 
 import numpy as np
 import rospy
-import rostest
 import tf2_ros
 from softbody_msgs.msg import Targets, TrackingStatus
 from softbody_msgs.srv import SetPose
 from std_srvs.srv import Trigger
 
-sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "shared"))
-from poses import ALIKE, CORNERS_M, placed, pose_in, rotation  # pylint: disable=wrong-import-position
-from recorder import Recorder  # pylint: disable=wrong-import-position
+from poses import ALIKE, CORNERS_M, placed, pose_in, rotation
+from recorder import Recorder
 
 OPTICAL_FRAME, TRUE_FRAME = "camera_color_optical_frame", "ground_truth_softbody"
 ROUGH_M = 0.012  # how far off the poses are that are set
@@ -70,8 +65,3 @@ class SetPoseByHand(unittest.TestCase):
             self.assertIn(words, response.message)
         after = self.recorder.wait(lambda seen: seen["softbody/targets"][before + 5:], "targets of further frames")
         self.assertFalse(any(targets.reset for targets in after), "what is tracked stays")
-
-
-if __name__ == "__main__":
-    rospy.init_node("test_set_pose")
-    rostest.rosrun("softbody_bringup", "test_set_pose", SetPoseByHand, sys.argv)

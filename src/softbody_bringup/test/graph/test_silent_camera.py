@@ -1,12 +1,8 @@
-#!/usr/bin/env python3
 """What status, states and log say from the start of the graph to the end of its camera, in a namespace of its own."""
-import os
 import subprocess
-import sys
 import unittest
 
 import rospy
-import rostest
 from geometry_msgs.msg import Point32, TransformStamped
 from rosgraph_msgs.msg import Log
 from softbody_msgs.msg import MeshState, MeshTopology, TrackingStatus
@@ -14,8 +10,7 @@ from softbody_msgs.srv import Pin, Release
 from std_msgs.msg import Header
 from tf2_msgs.msg import TFMessage
 
-sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "shared"))
-from recorder import Recorder  # pylint: disable=wrong-import-position
+from recorder import Recorder
 
 CAMERA, BODY, TRACKER = "camera_color_optical_frame", "left/softbody", "/left/feature_tracker"
 STATUS, STATE = "left/status", "left/surface/state"
@@ -78,8 +73,3 @@ class SilentCamera(unittest.TestCase):
         self.tf.publish(TFMessage([transform]))
         said = self.recorder.wait_for_log(TRACKER, f"the frame '{BODY}' on /tf is sent by this node")
         self.assertIn(rospy.get_name(), said.msg)
-
-
-if __name__ == "__main__":
-    rospy.init_node("test_silent_camera")
-    rostest.rosrun("softbody_bringup", "test_silent_camera", SilentCamera, sys.argv)

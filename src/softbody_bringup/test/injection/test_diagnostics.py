@@ -1,15 +1,9 @@
-#!/usr/bin/env python3
 """Camera, injector and marker tell of themselves on /diagnostics, beside the graph, and the aggregator knows them all."""
-import os
-import sys
 import unittest
 
-import rospy
-import rostest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 
-sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "shared"))
-from recorder import Recorder  # pylint: disable=wrong-import-position
+from recorder import Recorder
 
 STATUSES = {"virtual_camera: frames": "Virtual camera", "injector: faults": "Injector",
             "softbody/camera_ingest: frames": "Camera", "softbody/camera_ingest: sync offset": "Camera",
@@ -48,8 +42,3 @@ class Diagnostics(unittest.TestCase):
         self.recorder.wait(lambda seen: any(s.name.endswith("virtual_camera: frames")
                                             and float(values(s)["frames per second"]) > 1.0
                                             for m in seen["diagnostics"] for s in m.status), "frames of the camera")
-
-
-if __name__ == "__main__":
-    rospy.init_node("test_diagnostics")
-    rostest.rosrun("softbody_bringup", "test_diagnostics", Diagnostics, sys.argv)

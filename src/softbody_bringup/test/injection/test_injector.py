@@ -1,15 +1,12 @@
-#!/usr/bin/env python3
 """The live injector does to a stream what `inject` does to a bag with the same faults."""
 import os
 import subprocess
-import sys
 import tempfile
 import time
 import unittest
 
 import rosbag
 import rospy
-import rostest
 from sensor_msgs.msg import CameraInfo, Image
 
 COLOR, DEPTH, INFO = "color/image_raw", "aligned_depth_to_color/image_raw", "color/camera_info"
@@ -73,8 +70,3 @@ class Injector(unittest.TestCase):
             self.assertLess(len(expected[topic]), FRAMES)
             self.assertEqual([content(message) for message in seen[topic]], expected[topic])
         self.assertEqual([info.width for info in seen[INFO]], list(range(1, FRAMES + 1)))
-
-
-if __name__ == "__main__":
-    rospy.init_node("test_injector")
-    rostest.rosrun("softbody_bringup", "test_injector", Injector, sys.argv)

@@ -1,10 +1,8 @@
-#!/usr/bin/env python3
 """scripts/measure_live leaves no process behind when it is stopped, and says what is wrong with a short bag."""
 import os
 import pathlib
 import signal
 import subprocess
-import sys
 import tempfile
 import time
 import unittest
@@ -12,7 +10,6 @@ import uuid
 
 import rosbag
 import rospkg
-import rostest
 
 ROOT = pathlib.Path(rospkg.RosPack().get_path("softbody_bringup")).resolve().parents[1]
 PATIENCE_S = 120.0
@@ -97,7 +94,3 @@ class MeasureLive(unittest.TestCase):
         self.assertIn("too short", said)
         self.assertNotIn("Traceback", said)
         self.expect_nothing_left()
-
-
-if __name__ == "__main__":
-    rostest.rosrun("softbody_bringup", "measure_live", MeasureLive, sys.argv)

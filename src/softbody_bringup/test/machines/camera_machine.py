@@ -10,12 +10,11 @@ import numpy as np
 import rosbag
 import rospy
 from rosgraph_msgs.msg import Log
-from sensor_msgs.msg import CameraInfo, CompressedImage
 from softbody.compress_bag import compress
 from softbody_msgs.msg import MeshState, MeshTopology, TrackingStatus
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-sys.path += [os.path.join(HERE, "..", "camera"), os.path.join(HERE, "..", "shared")]
+sys.path.append(os.path.join(HERE, "..", "shared"))
 from compressed_bag import BAG  # pylint: disable=wrong-import-position
 from recorder import Recorder  # pylint: disable=wrong-import-position
 

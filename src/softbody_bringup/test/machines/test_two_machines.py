@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """The camera, the master and a viewer on one machine, the graph on another; a cable between them delays each packet and
 loses one of a hundred. The body is tracked as well as on one machine. If the clocks of the machines differ, that is told."""
 import json
@@ -11,11 +10,9 @@ import time
 import unittest
 
 import rospkg
-import rostest
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-sys.path.append(HERE)
-from network import ADDRESSES, Cable, Machine, why_impossible  # pylint: disable=wrong-import-position
+from network import ADDRESSES, Cable, Machine, why_impossible
 
 PORT = 11311
 FRAMES = 20
@@ -74,7 +71,3 @@ class TwoMachines(unittest.TestCase):
     def test_clocks_that_differ_are_told(self):
         warnings = self.track(clock_offset_s=20)["warnings"]
         self.assertTrue([warning for warning in warnings if "ahead of this machine's clock" in warning], warnings)
-
-
-if __name__ == "__main__":
-    rostest.rosrun("softbody_bringup", "test_two_machines", TwoMachines, sys.argv)

@@ -1,21 +1,15 @@
-#!/usr/bin/env python3
 """simulator/load_object: states, cuts and pins of the next object; what is refused changes nothing."""
-import os
 import shutil
-import sys
 import tempfile
 import unittest
 
 import rospkg
 import rospy
-import rostest
 import softbody
 from softbody_msgs.msg import CutHistory
 
-sys.path.append(os.path.dirname(os.path.abspath(__file__)))
-sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "shared"))
-from hand_made_frames import Frames  # pylint: disable=wrong-import-position
-from recorder import Recorder  # pylint: disable=wrong-import-position
+from hand_made_frames import Frames
+from recorder import Recorder
 
 CONFIG = rospkg.RosPack().get_path("softbody_bringup") + "/config"
 SPONGE, DOLL = f"{CONFIG}/sponge.yaml", f"{CONFIG}/doll.yaml"
@@ -144,8 +138,3 @@ class LoadObject(unittest.TestCase):
     def test_a_relative_path_is_refused(self):
         with self.assertRaisesRegex(softbody.Refused, "allowed: an absolute path"):
             self.body._call("simulator/load_object", softbody.body.LoadObject, "sponge.yaml")  # pylint: disable=protected-access
-
-
-if __name__ == "__main__":
-    rospy.init_node("test_load_object")
-    rostest.rosrun("softbody_bringup", "load_object", LoadObject, sys.argv)

@@ -1,20 +1,15 @@
-#!/usr/bin/env python3
 """The whole graph gets another object without a restart; nodes that are killed come back with it; the first one is tracked
 again when it comes back."""
-import os
 import signal
-import sys
 import unittest
 
 import rospkg
 import rospy
-import rostest
 import softbody
 from softbody_msgs.msg import MeshState, MeshTopology, TetTopology, TrackingStatus
 
-sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "shared"))
-from processes import kill, wait_for_another  # pylint: disable=wrong-import-position
-from recorder import Recorder  # pylint: disable=wrong-import-position
+from processes import kill, wait_for_another
+from recorder import Recorder
 
 CONFIG = rospkg.RosPack().get_path("softbody_bringup") + "/config"
 SPONGE, DOLL = f"{CONFIG}/sponge.yaml", f"{CONFIG}/doll.yaml"
@@ -63,8 +58,3 @@ class LoadObjectLive(unittest.TestCase):
         for state in list(self.recorder.messages["softbody/surface/state"]):
             if state.revision in (revision, again):
                 self.assertEqual(len(state.vertices), VERTICES[DOLL if state.revision == revision else SPONGE])
-
-
-if __name__ == "__main__":
-    rospy.init_node("test_load_object_live")
-    rostest.rosrun("softbody_bringup", "load_object_live", LoadObjectLive, sys.argv)

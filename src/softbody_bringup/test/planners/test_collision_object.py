@@ -1,25 +1,20 @@
-#!/usr/bin/env python3
 """The program collision_object: the newest state as an obstacle of MoveIt, at a bounded rate, with a stand-in for MoveIt."""
 import os
 import signal
 import subprocess
-import sys
 import tempfile
 import time
 import unittest
 
 import numpy as np
 import rospy
-import rostest
 from geometry_msgs.msg import Point32
 from rosgraph_msgs.msg import Clock
 from shape_msgs.msg import MeshTriangle
 from softbody_msgs.msg import MeshState, MeshTopology, Tetrahedron, TetTopology
 
-sys.path.append(os.path.dirname(os.path.abspath(__file__)))
-sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "shared"))
-import moveit_stand_in  # pylint: disable=wrong-import-position
-from recorder import PATIENCE_S  # pylint: disable=wrong-import-position
+import moveit_stand_in
+from recorder import PATIENCE_S
 
 MESSAGES = tempfile.mkdtemp()
 moveit_stand_in.make(MESSAGES)
@@ -160,8 +155,3 @@ class Collision(unittest.TestCase):
         self.tick_until(lambda: program.poll() is not None, "its end")
         self.assertEqual(program.returncode, 1)
         self.assertIn("rate is 0; allowed: above 0 to 30 Hz", program.stderr.read())
-
-
-if __name__ == "__main__":
-    rospy.init_node("test_collision_object")
-    rostest.rosrun("softbody_bringup", "collision_object", Collision, sys.argv)

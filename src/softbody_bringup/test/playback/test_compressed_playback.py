@@ -1,21 +1,16 @@
-#!/usr/bin/env python3
 """playback.launch finds out whether a bag has raw or compressed images, and takes the transports that it is given."""
 import os
 import signal
 import subprocess
-import sys
 import tempfile
 import unittest
 
 import rospy
-import rostest
 from softbody.compress_bag import compress
 from softbody_msgs.msg import MeshState, TrackingStatus
 
-HERE = os.path.dirname(os.path.abspath(__file__))
-sys.path += [os.path.join(HERE, "..", "camera"), os.path.join(HERE, "..", "shared")]
-from compressed_bag import BAG, SHARE, copy_bag  # pylint: disable=wrong-import-position
-from recorder import Recorder  # pylint: disable=wrong-import-position
+from compressed_bag import BAG, SHARE, copy_bag
+from recorder import Recorder
 
 
 class CompressedPlayback(unittest.TestCase):
@@ -47,8 +42,3 @@ class CompressedPlayback(unittest.TestCase):
 
     def test_raw_images_are_found(self):
         self.expect_tracking(BAG)
-
-
-if __name__ == "__main__":
-    rospy.init_node("test_compressed_playback")
-    rostest.rosrun("softbody_bringup", "test_compressed_playback", CompressedPlayback, sys.argv)

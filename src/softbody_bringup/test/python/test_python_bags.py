@@ -1,15 +1,12 @@
-#!/usr/bin/env python3
 """Results of replay in Python and in the files of export: the same numbers as in the messages."""
 import os
 import subprocess
-import sys
 import tempfile
 import unittest
 
 import numpy as np
 import rosbag
 import rospkg
-import rostest
 
 import softbody
 
@@ -93,7 +90,3 @@ class PythonBags(unittest.TestCase):
         for name in os.listdir(EXAMPLES):
             with open(f"{EXAMPLES}/{name}", encoding="utf-8") as file:
                 self.assertLessEqual(len(file.readlines()), 25, name)
-
-
-if __name__ == "__main__":
-    rostest.rosrun("softbody_bringup", "python_bags", PythonBags, sys.argv)

@@ -1,9 +1,7 @@
-#!/usr/bin/env python3
 """The live body in Python: whole states during cuts, services as functions, pins, and the examples."""
 import collections
 import os
 import subprocess
-import sys
 import threading
 import time
 import unittest
@@ -12,7 +10,6 @@ from unittest import mock
 import numpy as np
 import rospkg
 import rospy
-import rostest
 from geometry_msgs.msg import Pose, Quaternion
 from sensor_msgs.msg import PointCloud2
 from softbody_msgs.msg import MeshState, Targets
@@ -21,8 +18,7 @@ from std_srvs.srv import Trigger, TriggerResponse
 
 import softbody
 
-sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "shared"))
-from recorder import Recorder  # pylint: disable=wrong-import-position
+from recorder import Recorder
 
 EXAMPLES = rospkg.RosPack().get_path("softbody_python") + "/examples"
 PERIOD = rospy.Duration(nsecs=33333333)
@@ -273,8 +269,3 @@ class PythonLive(unittest.TestCase):
         lines = [line for line in self.example("predict_grip.py", 0.05).splitlines() if line.startswith("gripped")]
         self.assertEqual(len(lines), 5)
         self.assertIn("at 0.8 to 1.0 of the length: force", lines[-1])
-
-
-if __name__ == "__main__":
-    rospy.init_node("test_python_live")
-    rostest.rosrun("softbody_bringup", "python_live", PythonLive, sys.argv)

@@ -1,20 +1,16 @@
-#!/usr/bin/env python3
 """Bags that are split, that begin in their middle, that pause, and whose time lies an hour ahead: one graph tracks all."""
 import os
 import subprocess
-import sys
 import tempfile
 import time
 import unittest
 
 import rosbag
 import rospy
-import rostest
 from softbody_msgs.msg import MeshState, TrackingStatus
 from std_srvs.srv import SetBool
 
-sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "shared"))
-from recorder import Recorder  # pylint: disable=wrong-import-position
+from recorder import Recorder
 
 FIRST, LAST = rospy.Time(1_600_000_000), rospy.Time(1_600_000_001, 200_000_000)  # of the bag, without its last frames
 HOUR = rospy.Duration(3600)
@@ -99,8 +95,3 @@ class Playback(unittest.TestCase):
             player = self.play(bag)
             self.expect_tracking(before, FIRST + by, LAST + by)
             self.assertEqual(player.wait(), 0)
-
-
-if __name__ == "__main__":
-    rospy.init_node("test_playback")
-    rostest.rosrun("softbody_bringup", "test_playback", Playback, sys.argv)

@@ -1,17 +1,12 @@
-#!/usr/bin/env python3
 """Each of `nodes` that ends is started again, whatever ended it, and the graph tracks again without help."""
-import os
 import signal
-import sys
 import unittest
 
 import rospy
-import rostest
 from softbody_msgs.msg import MeshState, TrackingStatus
 
-sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "shared"))
-from processes import kill, wait_for_another  # pylint: disable=wrong-import-position
-from recorder import Recorder  # pylint: disable=wrong-import-position
+from processes import kill, wait_for_another
+from recorder import Recorder
 
 
 class Restart(unittest.TestCase):
@@ -36,8 +31,3 @@ class Restart(unittest.TestCase):
         for node in rospy.get_param("~nodes"):
             for number in (signal.SIGINT, signal.SIGKILL):
                 self.expect_return(node, number)
-
-
-if __name__ == "__main__":
-    rospy.init_node("test_restart")
-    rostest.rosrun("softbody_bringup", "test_restart", Restart, sys.argv)

@@ -1,13 +1,10 @@
-#!/usr/bin/env python3
 """The scanner shows the surface while the camera walks round the object, and writes the model when it is told to."""
 import os
 import re
 import shutil
-import sys
 import unittest
 
 import rospy
-import rostest
 from geometry_msgs.msg import PointStamped
 from softbody_msgs.msg import MeshState, MeshTopology
 from std_msgs.msg import String
@@ -73,8 +70,3 @@ class LiveScan(unittest.TestCase):
         self.assertTrue(os.path.exists(OUTPUT + "/object.yaml"))
         self.assertTrue(self.call("discard").success)
         wait_for(lambda: views() == 0)  # the text is sent every two seconds
-
-
-if __name__ == "__main__":
-    rospy.init_node("test_live_scan")
-    rostest.rosrun("softbody_bringup", "test_live_scan", LiveScan, sys.argv)

@@ -1,16 +1,12 @@
-#!/usr/bin/env python3
 """Parameters of a simulator that change while it runs, with the tools of dynamic_reconfigure. The body hangs from soft
 targets in gravity: how far it sinks shows what is in force."""
 import copy
-import os
 import subprocess
-import sys
 import unittest
 
 import numpy as np
 import rosnode
 import rospy
-import rostest
 from dynamic_reconfigure import DynamicReconfigureCallbackException
 from dynamic_reconfigure.client import Client
 from geometry_msgs.msg import Point32, Pose, Quaternion
@@ -18,8 +14,7 @@ from rosgraph_msgs.msg import Log
 from softbody_msgs.msg import MeshState, Target, Targets, TetTopology
 from softbody_msgs.srv import SetMaterial
 
-sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "shared"))
-from recorder import Recorder  # pylint: disable=wrong-import-position
+from recorder import Recorder
 
 NODE = "/softbody/simulator"
 STIFFNESS, STEPS = 1e-3, 60
@@ -156,8 +151,3 @@ class LiveParameters(unittest.TestCase):
         config = again.get_configuration(timeout=60)
         self.assertEqual((config["target_stiffness"], config["youngs_modulus_pa"]), (0.5 * STIFFNESS, 4.0e4))
         again.close()
-
-
-if __name__ == "__main__":
-    rospy.init_node("test_live_parameters")
-    rostest.rosrun("softbody_bringup", "test_live_parameters", LiveParameters, sys.argv)

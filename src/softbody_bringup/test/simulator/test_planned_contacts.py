@@ -1,13 +1,9 @@
-#!/usr/bin/env python3
 """Plans with a grip, a release and an obstacle that comes, and the contacts that they predict."""
-import os
-import sys
 import time
 import unittest
 
 import numpy as np
 import rospy
-import rostest
 import softbody
 import tf2_ros
 from geometry_msgs.msg import Point, Point32, Pose, Quaternion, TransformStamped, Vector3
@@ -16,8 +12,7 @@ from softbody_msgs.msg import (MeshState, MotionPlan, PlannedMotion, PlannedObst
 from softbody_msgs.srv import Pin, Predict
 from std_msgs.msg import Header
 
-sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "shared"))
-from recorder import PATIENCE_S, Recorder  # pylint: disable=wrong-import-position
+from recorder import PATIENCE_S, Recorder
 
 DENSITY_KG_M3, GRAVITY_M_S2 = 30.0, 9.81
 FRAMES_TO_REST = 40
@@ -169,8 +164,3 @@ class PlannedContacts(unittest.TestCase):
                 self.assertLess(vector(patch.force) @ vector(patch.normal), 0.0)
                 self.assertTrue((vector(patch.place) > vertices.min(axis=0) - 1e-3).all(), patch)
                 self.assertTrue((vector(patch.place) < vertices.max(axis=0) + 1e-3).all(), patch)
-
-
-if __name__ == "__main__":
-    rospy.init_node("test_planned_contacts")
-    rostest.rosrun("softbody_bringup", "planned_contacts", PlannedContacts)

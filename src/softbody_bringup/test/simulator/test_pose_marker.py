@@ -1,19 +1,14 @@
-#!/usr/bin/env python3
 """The interactive marker, used as rviz does: moved, and told to track from there."""
-import os
-import sys
 import unittest
 
 import numpy as np
 import rospy
-import rostest
 import tf2_ros
 from softbody_msgs.msg import MeshTopology, Targets, TetTopology
 from visualization_msgs.msg import InteractiveMarkerFeedback, InteractiveMarkerInit, InteractiveMarkerUpdate
 
-sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "shared"))
-from poses import CORNERS_M, placed, pose_in, rotation  # pylint: disable=wrong-import-position
-from recorder import Recorder  # pylint: disable=wrong-import-position
+from poses import CORNERS_M, placed, pose_in, rotation
+from recorder import Recorder
 
 OPTICAL_FRAME, TRUE_FRAME = "camera_color_optical_frame", "ground_truth_softbody"
 HALF_TURN = (0, 0, 1, 0)
@@ -73,8 +68,3 @@ class PoseMarker(unittest.TestCase):
             lambda seen: next((t for t in seen["softbody/targets"][before:] if t.reset), None), "a start")
         found = placed(first.body_pose.position, first.body_pose.orientation, CORNERS_M)
         self.assertLess(np.linalg.norm(found - expected, axis=1).max(), MAX_ERROR_M)
-
-
-if __name__ == "__main__":
-    rospy.init_node("test_pose_marker")
-    rostest.rosrun("softbody_bringup", "test_pose_marker", PoseMarker, sys.argv)

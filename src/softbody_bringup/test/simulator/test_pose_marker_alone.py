@@ -1,11 +1,7 @@
-#!/usr/bin/env python3
 """The interactive marker says what it waits for, until it has it."""
-import os
-import sys
 import unittest
 
 import rospy
-import rostest
 from geometry_msgs.msg import Point32
 from rosgraph_msgs.msg import Log
 from sensor_msgs.msg import CameraInfo
@@ -13,8 +9,7 @@ from shape_msgs.msg import MeshTriangle
 from softbody_msgs.msg import MeshTopology
 from visualization_msgs.msg import InteractiveMarkerUpdate
 
-sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "shared"))
-from recorder import Recorder  # pylint: disable=wrong-import-position
+from recorder import Recorder
 
 FRAME = "made_by_hand"
 
@@ -35,8 +30,3 @@ class PoseMarkerAlone(unittest.TestCase):
         marker = recorder.wait(lambda seen: next((marker for update in seen["softbody/pose_marker/update"]
                                                   for marker in update.markers), None), "the marker")
         self.assertEqual(marker.header.frame_id, FRAME)
-
-
-if __name__ == "__main__":
-    rospy.init_node("test_pose_marker_alone")
-    rostest.rosrun("softbody_bringup", "test_pose_marker_alone", PoseMarkerAlone, sys.argv)

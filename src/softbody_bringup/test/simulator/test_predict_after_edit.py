@@ -1,19 +1,14 @@
-#!/usr/bin/env python3
 """A prediction between an edit of the body and the next step: its pins are those of the edited body."""
-import os
-import sys
 import unittest
 
 import numpy as np
 import rospy
-import rostest
 from geometry_msgs.msg import Point, Point32, Pose, Quaternion
 from shape_msgs.msg import MeshTriangle
 from softbody_msgs.msg import Cut, MeshState, MotionPlan, PlannedMotion, Targets, TetTopology
 from softbody_msgs.srv import Pin, Predict
 
-sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "shared"))
-from recorder import Recorder  # pylint: disable=wrong-import-position
+from recorder import Recorder
 
 
 def array(points):
@@ -73,8 +68,3 @@ class PredictAfterEdit(unittest.TestCase):
         undone = self.edit(2, kind=Cut.UNDO)
         self.assertEqual(len(undone.rest_vertices), len(first.rest_vertices))
         self.expect_lift(undone)
-
-
-if __name__ == "__main__":
-    rospy.init_node("test_predict_after_edit")
-    rostest.rosrun("softbody_bringup", "predict_after_edit", PredictAfterEdit)

@@ -1,8 +1,5 @@
-#!/usr/bin/env python3
 """The action simulator/predict_plans: progress, cancel, goals that replace others, and a graph that runs beside it."""
-import os
 import random
-import sys
 import threading
 import time
 import unittest
@@ -10,7 +7,6 @@ import unittest
 import actionlib
 import numpy as np
 import rospy
-import rostest
 import softbody
 from actionlib_msgs.msg import GoalStatus
 from geometry_msgs.msg import Point, Point32, Pose, Quaternion
@@ -18,8 +14,7 @@ from softbody_msgs.msg import (MeshState, MotionPlan, PlannedMotion, PlannedPin,
                                Targets, TetTopology)
 from softbody_msgs.srv import Pin, Predict
 
-sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "shared"))
-from recorder import PATIENCE_S, Recorder  # pylint: disable=wrong-import-position
+from recorder import PATIENCE_S, Recorder
 
 PERIOD_S = 1.0 / 30.0
 LEAST_RATE_HZ = 10.0  # where other programs use all processors
@@ -167,8 +162,3 @@ class PredictPlans(unittest.TestCase):
         self.assertGreater(len(sent), LEAST_RATE_HZ * duration_s)
         answered = [s.header.stamp for s in self.recorder.messages["softbody/volume/state"] if s.header.stamp >= sent[0]]
         self.assertEqual(answered, sent)
-
-
-if __name__ == "__main__":
-    rospy.init_node("test_predict_plans")
-    rostest.rosrun("softbody_bringup", "predict_plans", PredictPlans)

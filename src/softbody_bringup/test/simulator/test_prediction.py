@@ -1,12 +1,8 @@
-#!/usr/bin/env python3
 """The service simulator/predict, with a pin that is planned to move."""
-import os
-import sys
 import unittest
 
 import numpy as np
 import rospy
-import rostest
 import softbody
 from geometry_msgs.msg import Point, Point32, Pose, Quaternion, Vector3
 from softbody_msgs.msg import (MeshState, MotionPlan, PlannedMotion, PlannedObstacle, PlannedPin, PlannedRelease, Targets,
@@ -14,8 +10,7 @@ from softbody_msgs.msg import (MeshState, MotionPlan, PlannedMotion, PlannedObst
 from softbody_msgs.srv import Pin, Predict
 from std_msgs.msg import Header
 
-sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "shared"))
-from recorder import Recorder  # pylint: disable=wrong-import-position
+from recorder import Recorder
 
 
 def array(points):
@@ -198,8 +193,3 @@ class Prediction(unittest.TestCase):
         answer = self.predict(times=[0.5], plans=[plan])
         self.assertTrue(answer.success, answer.message)
         self.assertEqual(answer.states[0].names, ["claw"])
-
-
-if __name__ == "__main__":
-    rospy.init_node("test_prediction")
-    rostest.rosrun("softbody_bringup", "prediction", Prediction)

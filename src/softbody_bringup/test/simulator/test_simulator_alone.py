@@ -1,19 +1,14 @@
-#!/usr/bin/env python3
 """The simulator under targets made by hand, with no camera."""
-import os
-import sys
 import unittest
 
 import numpy as np
 import rospy
-import rostest
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import Point32, Pose, Quaternion
 from rosgraph_msgs.msg import Log
 from softbody_msgs.msg import MeshState, Target, Targets, TetTopology
 
-sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "shared"))
-from recorder import Recorder  # pylint: disable=wrong-import-position
+from recorder import Recorder
 
 FRAME = "made_by_hand"
 TURN_Z_90 = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
@@ -151,8 +146,3 @@ class SimulatorAlone(unittest.TestCase):
         self.place()
         state = self.step(self.centers(-np.eye(3), np.zeros(3)))
         self.assertTrue(np.isfinite(array(state.vertices)).all())
-
-
-if __name__ == "__main__":
-    rospy.init_node("test_simulator_alone")
-    rostest.rosrun("softbody_bringup", "test_simulator_alone", SimulatorAlone, sys.argv)

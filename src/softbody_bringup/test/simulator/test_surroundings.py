@@ -1,13 +1,9 @@
-#!/usr/bin/env python3
 """The simulator among a ground, a finger and a gripper that move with tf, with no camera."""
-import os
-import sys
 import time
 import unittest
 
 import numpy as np
 import rospy
-import rostest
 import tf2_ros
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from geometry_msgs.msg import Point, Point32, Pose, Quaternion, TransformStamped, Vector3, WrenchStamped
@@ -15,10 +11,9 @@ from rosgraph_msgs.msg import Log
 from softbody_msgs.msg import MeshState, PinRegion, Target, Targets, TetTopology
 from softbody_msgs.srv import Pin, Release, SetMaterial, SetObstacle
 
-sys.path += [os.path.join(os.path.dirname(os.path.abspath(__file__)), folder) for folder in ("", "../shared")]
-from force_cases import ForceCases  # pylint: disable=wrong-import-position
-from gripper_cases import GripperCases  # pylint: disable=wrong-import-position
-from recorder import PATIENCE_S, Recorder  # pylint: disable=wrong-import-position
+from force_cases import ForceCases
+from gripper_cases import GripperCases
+from recorder import PATIENCE_S, Recorder
 
 FRAME = "world"
 DENSITY_KG_M3, GRAVITY_M_S2 = 30.0, 9.81
@@ -330,8 +325,3 @@ class Surroundings(ForceCases, GripperCases, unittest.TestCase):
             "states without targets")[0]
         self.assertLess(later.observed, later.header.stamp)
         self.assertEqual(later.header.frame_id, FRAME)
-
-
-if __name__ == "__main__":
-    rospy.init_node("test_surroundings")
-    rostest.rosrun("softbody_bringup", "test_surroundings", Surroundings, sys.argv)

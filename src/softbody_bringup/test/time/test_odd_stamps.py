@@ -1,15 +1,11 @@
-#!/usr/bin/env python3
 """One message with an odd stamp on any topic changes nothing: the graph goes on, cut as it is."""
 import itertools
-import os
-import sys
 import unittest
 from xmlrpc.client import ServerProxy
 
 import rosgraph
 import rosnode
 import rospy
-import rostest
 from geometry_msgs.msg import Point, Point32, PolygonStamped, TransformStamped, Vector3
 from rosgraph_msgs.msg import Log
 from sensor_msgs.msg import Image
@@ -17,8 +13,7 @@ from softbody_msgs.msg import MeshState, Targets, TrackingStatus
 from softbody_msgs.srv import CutBody
 from tf2_msgs.msg import TFMessage
 
-sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "shared"))
-from recorder import Recorder  # pylint: disable=wrong-import-position
+from recorder import Recorder
 
 FRAMES = 4
 STATES, STATUS = "softbody/surface/state", "softbody/status"
@@ -108,8 +103,3 @@ class OddStamps(unittest.TestCase):
             publisher.publish(message)
             return any("/softbody/targets" in log.msg and "alone there" in log.msg for log in seen["rosout"])
         self.recorder.wait(is_told, "a sentence on the refused targets")
-
-
-if __name__ == "__main__":
-    rospy.init_node("test_odd_stamps")
-    rostest.rosrun("softbody_bringup", "test_odd_stamps", OddStamps, sys.argv)

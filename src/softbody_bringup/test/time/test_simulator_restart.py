@@ -1,17 +1,13 @@
-#!/usr/bin/env python3
 """A simulator that is killed and started again before a live camera: the status tells of it, and states come back."""
 import os
 import signal
-import sys
 import unittest
 import xmlrpc.client
 
 import rospy
-import rostest
 from softbody_msgs.msg import MeshState, TetTopology, TrackingStatus
 
-sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "shared"))
-from recorder import Recorder  # pylint: disable=wrong-import-position
+from recorder import Recorder
 
 SIMULATOR = "/softbody/simulator"
 FRAMES = 10
@@ -58,8 +54,3 @@ class SimulatorRestart(unittest.TestCase):
         while states != self.count("softbody/volume/state"):
             states = self.count("softbody/volume/state")
             self.wait_for_more("softbody/status", 3)
-
-
-if __name__ == "__main__":
-    rospy.init_node("test_simulator_restart")
-    rostest.rosrun("softbody_bringup", "test_simulator_restart", SimulatorRestart, sys.argv)

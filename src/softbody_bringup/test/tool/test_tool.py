@@ -1,21 +1,15 @@
-#!/usr/bin/env python3
 """The tool of the virtual scene `cut` is tracked live: pose against the truth, blade, transform, diagnostics."""
-import os
-import sys
 import unittest
 
 import numpy
 import rospkg
-import rospy
-import rostest
 import tf2_msgs.msg
 import yaml
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import PolygonStamped, PoseStamped, PoseWithCovarianceStamped
 from softbody_msgs.msg import StageTiming
 
-sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "shared"))
-from recorder import Recorder  # pylint: disable=wrong-import-position
+from recorder import Recorder
 
 FRAMES = 10
 MAX_ERROR_M, MAX_ERROR_RAD = 0.002, 0.035  # 2 mm and 2 degrees, noise on
@@ -85,8 +79,3 @@ class Tool(unittest.TestCase):
             lambda seen: any("tool_tracker: tool" in status.name and status.message == "seen"
                              for message in seen["diagnostics"] for status in message.status),
             "diagnostics of a tool that is seen")
-
-
-if __name__ == "__main__":
-    rospy.init_node("test_tool")
-    rostest.rosrun("softbody_bringup", "test_tool", Tool, sys.argv)

@@ -1,16 +1,11 @@
-#!/usr/bin/env python3
 """What /diagnostics say where no frames come, where frames come that cannot be used, and where those show no tool."""
-import os
-import sys
 import unittest
 
 import rospy
-import rostest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from sensor_msgs.msg import CameraInfo, Image
 
-sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "shared"))
-from recorder import Recorder  # pylint: disable=wrong-import-position
+from recorder import Recorder
 
 WIDTH, HEIGHT = 64, 48
 
@@ -47,8 +42,3 @@ class ToolTrackerAlone(unittest.TestCase):
                                        ("bgr8", DiagnosticStatus.WARN, "not seen: ")):
             type(self).color_encoding = encoding
             self.recorder.wait_for_status("tool_tracker: tool", level, words)
-
-
-if __name__ == "__main__":
-    rospy.init_node("test_tool_tracker_alone")
-    rostest.rosrun("softbody_bringup", "test_tool_tracker_alone", ToolTrackerAlone, sys.argv)

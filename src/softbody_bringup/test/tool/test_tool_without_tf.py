@@ -1,20 +1,14 @@
-#!/usr/bin/env python3
 """A tool is seen where tf never places the camera in output_frame, too; the log and /diagnostics say what that costs and
 why, until tf places it."""
-import os
-import sys
 import unittest
 
-import rospy
-import rostest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from geometry_msgs.msg import PoseWithCovarianceStamped, TransformStamped
 from rosgraph_msgs.msg import Log
 from tf2_ros import StaticTransformBroadcaster
 from visualization_msgs.msg import MarkerArray
 
-sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "shared"))
-from recorder import Recorder  # pylint: disable=wrong-import-position
+from recorder import Recorder
 
 REASON = "tf does not say where camera_color_optical_frame is in output_frame bench"
 
@@ -39,8 +33,3 @@ class ToolWithoutTf(unittest.TestCase):
         self.recorder.wait_for_status("tool_tracker: tool", DiagnosticStatus.OK, "seen")
         marker = self.recorder.wait_for("softbody/tool/marker")[0].markers[0]
         self.assertEqual(marker.header.frame_id, "bench")
-
-
-if __name__ == "__main__":
-    rospy.init_node("test_tool_without_tf")
-    rostest.rosrun("softbody_bringup", "test_tool_without_tf", ToolWithoutTf, sys.argv)
