@@ -151,30 +151,31 @@ class HeldBody {
   std::vector<int> seen_;
 };
 
-/// Conflicts of every kind must stay bounded, however stiff the body is.
-void expectBounded(const TetTopology& topology) {
-  const Eigen::Vector3d aside(0.57, 0.57, -0.57);
-  for (const double youngs_modulus_pa : {2e3, 2e4, 2e5}) {
+/// Conflicts of every kind must stay bounded, however stiff the body is: each of them is tried with one of
+/// the stiffnesses in turn. @param turn of the first.
+void expectBounded(const TetTopology& topology, int turn) {
+  constexpr double kModuli_pa[] = {2e3, 2e4, 2e5};
+  const auto expect = [&](const Eigen::Vector3d& size, double hz) {
+    const double youngs_modulus_pa = kModuli_pa[turn % 3];
+    SCOPED_TRACE("E " + std::to_string(youngs_modulus_pa) + " Pa, x " + std::to_string(size.x()) + " m, " +
+                 std::to_string(hz) + " Hz");
     const HeldBody body(topology, youngs_modulus_pa);
-    unsigned seed = 1;
-    const auto expect = [&](const Eigen::Vector3d& size, double hz) {
-      SCOPED_TRACE("E " + std::to_string(youngs_modulus_pa) + " Pa, x " + std::to_string(size.x()) + " m, " +
-                   std::to_string(hz) + " Hz");
-      const Course course = body.follow(hz > 0.0 ? sine(size, hz) : constant(size), 4.0, ++seed);
-      EXPECT_LT(course.reaction_n, body.largestReaction(size));
-      // When the camera sees nothing, the free end swings to the pin and at most as far again.
-      EXPECT_LT(course.away_m, 2.0 * size.norm() + 2.0 * kNoise);
-      EXPECT_LT(course.end_m, 0.003);
-    };
-    for (const Eigen::Vector3d& direction : {Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, 0, 1), aside})
-      expect(0.005 * direction, 0.0);
-    for (const double hz : {0.3, 1.0, 3.0}) expect(0.02 * aside, hz);
-  }
+    const Course course =
+        body.follow(hz > 0.0 ? sine(size, hz) : constant(size), 4.0, static_cast<unsigned>(++turn));
+    EXPECT_LT(course.reaction_n, body.largestReaction(size));
+    // When the camera sees nothing, the free end swings to the pin and at most as far again.
+    EXPECT_LT(course.away_m, 2.0 * size.norm() + 2.0 * kNoise);
+    EXPECT_LT(course.end_m, 0.003);
+  };
+  const Eigen::Vector3d aside(0.57, 0.57, -0.57);
+  for (const Eigen::Vector3d& direction : {Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, 0, 1), aside})
+    expect(0.005 * direction, 0.0);
+  for (const double hz : {0.3, 1.0, 3.0}) expect(0.02 * aside, hz);
 }
 
-TEST(PinConflicts, StayBoundedOnTheSponge) { expectBounded(thickSponge()); }
+TEST(PinConflicts, StayBoundedOnTheSponge) { expectBounded(thickSponge(), 0); }
 
-TEST(PinConflicts, StayBoundedOnTheDoll) { expectBounded(doll()); }
+TEST(PinConflicts, StayBoundedOnTheDoll) { expectBounded(doll(), 1); }
 
 TEST(PinConflicts, EndAtTheMeanWeightedByInverseVariances) {
   const HeldBody body(thickSponge(), 2e4);

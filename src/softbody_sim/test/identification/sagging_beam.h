@@ -44,10 +44,7 @@ struct SaggingBeam {
     for (int k = 0; k < 30; ++k) simulator.settle({}, surroundings);
     ShapeObservation observation;
     observation.stamp = static_cast<Nanoseconds>(problem.observations.size()) * 1000000000;
-    observation.targets = vertexTargets(problem.topology, simulator.state().vertices);
-    std::normal_distribution<double> normal;
-    for (Target& target : observation.targets)
-      target.position += noise_m * Eigen::Vector3d(normal(random), normal(random), normal(random));
+    observation.targets = noisy(vertexTargets(problem.topology, simulator.state().vertices), noise_m);
     observation.surroundings = surroundings;
     if (force_noise_n > 0.0) {
       MeasuredWrench wrench;
@@ -56,11 +53,22 @@ struct SaggingBeam {
       for (std::size_t p = 0; p < surroundings.pins.size(); ++p)
         if (surroundings.pins[p].vertex >= end.front())
           wrench.value.force += simulator.reactions().pins[p].force;
-      wrench.value.force += force_noise_n * Eigen::Vector3d(normal(random), normal(random), normal(random));
+      wrench.value.force += force_noise_n * noise();
       observation.wrenches.push_back(wrench);
     }
     problem.observations.push_back(observation);
     return simulator.state().vertices;
+  }
+
+  /// Standard normal in each coordinate.
+  Eigen::Vector3d noise() {
+    std::normal_distribution<double> normal;
+    return Eigen::Vector3d(normal(random), normal(random), normal(random));
+  }
+
+  std::vector<Target> noisy(std::vector<Target> targets, double noise_m) {
+    for (Target& target : targets) target.position += noise_m * noise();
+    return targets;
   }
 
   Material truth;

@@ -37,42 +37,37 @@ TEST(IdentifyMaterial, TheTargetsMayBeOffByARigidMotion) {
 /// With one mesh for both, only the statistical error counts.
 TEST(IdentifyMaterial, NoisySagHasTheTruthWithinTwoStandardErrors) {
   int inside = 0;
-  for (unsigned seed = 1; seed <= 20; ++seed) {
-    SaggingBeam beam;
+  SaggingBeam exact;
+  exact.observe(exact.clamp);
+  for (unsigned seed = 1; seed <= 10; ++seed) {
+    SaggingBeam beam = exact;
     beam.random.seed(seed);
-    beam.observe(beam.clamp, 1e-3);
+    beam.problem.observations[0].targets = beam.noisy(beam.problem.observations[0].targets, 1e-3);
     const EstimatedProperty modulus = propertyOf(identifyMaterial(beam.problem), "youngs_modulus_pa");
     EXPECT_TRUE(modulus.observable);
     inside += std::abs(modulus.value - 4e4) < 2.0 * modulus.statistical ? 1 : 0;
   }
-  EXPECT_GE(inside, 19);
+  EXPECT_GE(inside, 9);
 }
 
 /// All targets of a patch have the same error, as features that were placed on the body at once.
 TEST(IdentifyMaterial, ErrorsOfNeighboursMakeTheStandardErrorLarger) {
   int inside = 0;
   double factor = 0.0;
-  for (unsigned seed = 1; seed <= 20; ++seed) {
-    SaggingBeam beam;
+  SaggingBeam exact;
+  exact.observe(exact.clamp);
+  for (unsigned seed = 1; seed <= 10; ++seed) {
+    SaggingBeam beam = exact;
     beam.random.seed(seed);
-    beam.observe(beam.clamp);
-    std::normal_distribution<double> normal(0.0, 1e-3);
-    std::vector<Eigen::Vector3d> errors(1000);
-    for (Eigen::Vector3d& error : errors)
-      error << normal(beam.random), normal(beam.random), normal(beam.random);
-    ShapeObservation& observation = beam.problem.observations[0];
-    std::vector<Target> targets;
-    for (std::size_t k = 0; k < observation.targets.size(); ++k)
-      for (int copy = 0; copy < 16; ++copy) {
-        targets.push_back(observation.targets[k]);
-        targets.back().position += errors[k];
-      }
-    observation.targets = targets;
+    std::vector<Target>& targets = beam.problem.observations[0].targets;
+    const std::vector<Target> once = beam.noisy(targets, 1e-3);
+    targets.clear();
+    for (const Target& target : once) targets.insert(targets.end(), 16, target);
     const EstimatedProperty modulus = propertyOf(identifyMaterial(beam.problem), "youngs_modulus_pa");
     inside += std::abs(modulus.value - 4e4) < 2.0 * modulus.statistical ? 1 : 0;
-    factor += modulus.correlation_factor / 20.0;
+    factor += modulus.correlation_factor / 10.0;
   }
-  EXPECT_GE(inside, 18);
+  EXPECT_GE(inside, 9);
   EXPECT_GT(factor, 6.0);
 }
 

@@ -18,7 +18,7 @@ void expectEqual(const ObjectModel& a, const ObjectModel& b) {
 }
 
 TEST_F(ObjectModelTest, AKeptVolumeEqualsANewOneBitForBit) {
-  const ObjectDescription description = describe(test::torus(0.1, 0.03, 60, 24));
+  const ObjectDescription description = describe(test::block());
   VolumeSettings uncached;
   uncached.use_cache = false;
   const ObjectModel made = buildObjectModel(description, uncached);
@@ -46,7 +46,7 @@ class KeptVolume : public ObjectModelTest {
         << again.warnings[0];
   }
 
-  ObjectDescription description_ = describe(test::torus(0.1, 0.03, 60, 24));
+  ObjectDescription description_ = describe(test::block());
   ObjectModel made_;
 };
 
@@ -70,7 +70,7 @@ TEST_F(KeptVolume, IsMadeAgainIfItBelongsToOtherInputs) {
   const std::filesystem::path first = entry();
   const std::string text = readFile(first);
   std::filesystem::remove(first);
-  description_ = describe(test::torus(0.1, 0.02, 60, 24));
+  description_ = describe(test::boxMesh({0.2, 0.1, 0.03}));
   made_ = buildObjectModel(description_);
   writeBytes(entry(), text);
   expectSkipped();
@@ -92,7 +92,7 @@ TEST_F(KeptVolume, IsNotUsedIfItIsNoFile) {
 
 TEST_F(ObjectModelTest, AnUnusableCacheIsAWarning) {
   folder_.write("cache", "a file where a folder should be");
-  const ObjectModel model = buildObjectModel(describe(test::torus(0.1, 0.03, 60, 24)));
+  const ObjectModel model = buildObjectModel(describe(test::block()));
   expectSound(model);
   ASSERT_EQ(model.warnings.size(), 1U);
   EXPECT_NE(model.warnings[0].find("the cache of prepared models is not used"), std::string::npos);

@@ -19,7 +19,7 @@ using test::ObjectModelTest;
 using test::stretched;
 
 TEST_F(ObjectModelTest, PreparedFolderGivesTheSameModel) {
-  const ObjectDescription description = describe(stretched(test::torus(0.1, 0.03, 60, 24), 1000, 1000, 1000));
+  const ObjectDescription description = describe(stretched(test::block(), 1000, 1000, 1000));
   std::ostringstream progress;
   prepareModel({description.visual_mesh, "mm", 0.0, {}}, folder_.file("out"), {}, progress);
   const ObjectModel prepared = buildObjectModel(loadObjectDescription(folder_.file("out/object.yaml")));
@@ -33,7 +33,7 @@ TEST_F(ObjectModelTest, PreparedFolderGivesTheSameModel) {
 
 /// The length of the real body replaces the unit, whatever it is.
 TEST_F(ObjectModelTest, TheLengthOrTheScaleReplacesTheUnit) {
-  const ObjectDescription description = describe(stretched(test::torus(0.1, 0.03, 60, 24), 37, 37, 37));
+  const ObjectDescription description = describe(stretched(test::block(), 37, 37, 37));
   std::ostringstream output;
   const auto longestSide = [&](const ModelSource& source) {
     prepareModel(source, folder_.file("out"), {}, output);
@@ -42,15 +42,15 @@ TEST_F(ObjectModelTest, TheLengthOrTheScaleReplacesTheUnit) {
     return (rest.colwise().maxCoeff() - rest.colwise().minCoeff()).maxCoeff();
   };
   EXPECT_NEAR(longestSide({description.visual_mesh, "m", 0.0, {0.0, 0.2, "", 0}}), 0.2, 1e-6);
-  EXPECT_NEAR(longestSide({description.visual_mesh, "m", 0.01, {}}), 37 * 0.26 * 0.01, 1e-4);
+  EXPECT_NEAR(longestSide({description.visual_mesh, "m", 0.01, {}}), 37 * 0.2 * 0.01, 1e-4);
   EXPECT_NE(output.str().find("**Verdict: good.**"), std::string::npos) << output.str();
 }
 
 TEST_F(ObjectModelTest, ThePictureOfTheMeshIsKept) {
-  const TriangleMesh torus = test::torus(0.1, 0.03, 60, 24);
+  const TriangleMesh mesh = test::block();
   const auto prepare = [&](const std::string& materials) {
     folder_.write("skin.mtl", materials);
-    writeObj(folder_.file("skinned.obj"), torus, {Points::Random(3 * torus.triangles.rows(), 3), "skin.mtl"});
+    writeObj(folder_.file("skinned.obj"), mesh, {Points::Random(3 * mesh.triangles.rows(), 3), "skin.mtl"});
     std::ostringstream output;
     prepareModel({folder_.file("skinned.obj")}, folder_.file("out"), {}, output);
     return output.str();
@@ -63,7 +63,7 @@ TEST_F(ObjectModelTest, ThePictureOfTheMeshIsKept) {
   const SurfaceFile visual = readSurfaceFile(folder_.file("out/visual.obj"), &warnings);
   const SurfacePictures pictures = surfacePictures(visual, FileScope::kOwnFolder, &warnings);
   ASSERT_EQ(pictures.files, std::vector<std::string>{folder_.file("out/visual.png")});
-  EXPECT_EQ(pictures.picture, std::vector<int>(static_cast<std::size_t>(torus.triangles.rows()), 0));
+  EXPECT_EQ(pictures.picture, std::vector<int>(static_cast<std::size_t>(mesh.triangles.rows()), 0));
   EXPECT_TRUE(warnings.empty());
 
   prepare("newmtl body\nmap_Kd -s 1 1 1 skin.bmp\n");
@@ -74,11 +74,11 @@ TEST_F(ObjectModelTest, ThePictureOfTheMeshIsKept) {
 }
 
 TEST_F(ObjectModelTest, TheColoursOfTheVerticesAreKept) {
-  const TriangleMesh torus = test::torus(0.1, 0.03, 60, 24);
+  const TriangleMesh mesh = test::block();
   VertexColors colors;
-  for (Eigen::Index v = 0; v < torus.vertices.rows(); ++v)
+  for (Eigen::Index v = 0; v < mesh.vertices.rows(); ++v)
     colors.push_back({static_cast<std::uint8_t>(v % 256), 90, static_cast<std::uint8_t>(255 - v % 256)});
-  writeObj(folder_.file("colored.obj"), torus, {{}, "", colors});
+  writeObj(folder_.file("colored.obj"), mesh, {{}, "", colors});
   std::ostringstream output;
   prepareModel({folder_.file("colored.obj")}, folder_.file("out"), {}, output);
   EXPECT_EQ(readVertexColors(folder_.file("out/visual.obj")), colors);
@@ -100,7 +100,7 @@ TEST_F(ObjectModelTest, ARefusedMeshLeavesTheFolderAsItWas) {
 }
 
 TEST_F(ObjectModelTest, AFolderIsPreparedAgainButFilesOfTheUserStay) {
-  const ObjectDescription description = describe(test::torus(0.1, 0.03, 60, 24));
+  const ObjectDescription description = describe(test::block());
   std::ostringstream progress;
   const auto prepare = [&](const std::string& name) {
     return complaint([&] {
@@ -166,7 +166,7 @@ TEST_F(ObjectModelTest, AMeshWithoutVolumeIsRefusedOrGetsTheStatedThickness) {
 }
 
 TEST_F(ObjectModelTest, AClosedBodyGetsNoThickness) {
-  describe(test::torus(0.1, 0.03, 60, 24));
+  describe(test::block());
   std::ostringstream progress;
   const std::string said = complaint([&] {
     prepareModel({folder_.file("visual.obj"), "m", 0.0, {0.01, 0.0, "", 0}}, folder_.file("out"), {},
@@ -178,7 +178,7 @@ TEST_F(ObjectModelTest, AClosedBodyGetsNoThickness) {
 /// At any time before the files have their names.
 TEST_F(ObjectModelTest, WorkThatIsEndedLeavesTheFolderAsItWas) {
   struct Ended {};
-  describe(test::torus(0.1, 0.03, 60, 24));
+  describe(test::block());
   std::ostringstream output;
   std::vector<double> shares;
   VolumeSettings settings;

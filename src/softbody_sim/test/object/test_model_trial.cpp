@@ -55,7 +55,7 @@ TEST_F(ObjectModelTest, TrianglesThatCrossAreNamedWithTheirPlace) {
 }
 
 TEST_F(ObjectModelTest, ATwistedMeshCannotBeUsedAndTheTrialSaysWhy) {
-  ObjectModel model = buildObjectModel(describe(test::torus(0.1, 0.03, 60, 24)));
+  ObjectModel model = buildObjectModel(describe(test::block()));
   model.visual.triangles.row(7).reverseInPlace();
   const std::vector<Judgement> judgements = judge(tryModel(model), 2880);
   EXPECT_EQ(worst(judgements), Verdict::kBad);
@@ -81,7 +81,7 @@ TEST(ModelTrial, EachFailureIsBadAndASlowFrameOffersSimpler) {
 }
 
 TEST_F(ObjectModelTest, ABadVerdictHasItsOwnExitCode) {
-  const std::string mesh = describe(test::torus(0.1, 0.03, 60, 24)).visual_mesh;
+  const std::string mesh = describe(test::block()).visual_mesh;
   const auto exitCode = [&](const std::string& options) {
     const std::string program = SOFTBODY_SOURCE_DIR "/../../catkin_ws/devel/lib/softbody_sim/prepare_model ";
     return WEXITSTATUS(std::system(
