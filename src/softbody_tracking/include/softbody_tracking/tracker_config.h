@@ -4,14 +4,14 @@
 
 namespace softbody {
 
-/// Registration: alignment of the rest shape with a depth image, without a prediction.
+/// The search for the body in a frame, without a prediction.
 struct RegistrationConfig {
   /// Larger depth differences count as free space or occlusion [m]. Beyond a distance of 1 m the value is
   /// multiplied by the square of the distance in metres, because depth is noisier there.
   double distance_scale_m = 0.02;
-  double max_cost = 0.22;    ///< mean cost of a pixel, 0..1, above which a pose is rejected
-  bool anywhere = false;     ///< search: a body that is not at its rough pose is searched for elsewhere, too
-  double pose_std_m = 0.03;  ///< standard deviation of a rough pose's place along each axis
+  double max_cost = 0.22;      ///< mean cost of a pixel, 0..1, above which a pose is rejected
+  bool anywhere = false;       ///< also elsewhere, if the body is not at its rough pose
+  double pose_std_m = 0.03;    ///< standard deviation of a rough pose's place along each axis
   double pose_std_deg = 15.0;  ///< of its turn
 };
 
