@@ -1,24 +1,17 @@
 """The memory of simulator and surface stays bounded over many cuts and undos. Prints what they need."""
 import time
 import unittest
-from xmlrpc.client import ServerProxy
 
 import numpy as np
-import rosgraph
 import rospy
 from geometry_msgs.msg import Point, Vector3
 from softbody_msgs.msg import MeshTopology
 from softbody_msgs.srv import CutBody
 from std_srvs.srv import Trigger
 
+from processes import process_of, status_of
+
 PATIENCE_S = 120.0
-
-
-def memory_mb(node, entry):
-    """An entry of /proc/PID/status: VmRSS, resident now, or VmHWM, the most so far."""
-    pid = ServerProxy(rosgraph.Master("/test_cut_memory").lookupNode(node)).getPid("/test_cut_memory")[2]
-    with open(f"/proc/{pid}/status", encoding="ascii") as status:
-        return next(int(line.split()[1]) / 1024 for line in status if line.startswith(entry + ":"))
 
 
 def when_ready(call):
@@ -64,7 +57,8 @@ class CutMemory(unittest.TestCase):
                 answer = when_ready(undo)
                 self.assertTrue(answer.success, answer.message)
             for node in ("simulator", "surface"):
-                now, most = (memory_mb(f"/{body}/{node}", entry) for entry in ("VmRSS", "VmHWM"))
+                process = process_of(f"/{body}/{node}")
+                now, most = (status_of(process, entry) / 1024 for entry in ("VmRSS", "VmHWM"))
                 print(f"{body}: {node} after {steps} undos in {time.monotonic() - begin:.1f} s: {now:.0f} MB, "
                       f"at most {most:.0f} MB", flush=True)
                 self.assertLess(most, limit_mb, f"{body}: {node}")

@@ -17,6 +17,12 @@ def process_of(node):
         return None
 
 
+def status_of(process, entry):
+    """A number of /proc/PID/status, sizes in kB: VmRSS, resident now; VmHWM, the most so far; Threads."""
+    with open(f"/proc/{process}/status", encoding="ascii") as status:
+        return next(int(line.split()[1]) for line in status if line.startswith(entry + ":"))
+
+
 def kill(node, number):
     """Sends a signal to a node. @return its process id."""
     process = process_of(node)
