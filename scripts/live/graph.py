@@ -51,9 +51,9 @@ class Graph:
     def _note(self, number, _):
         self._signal = number
 
-    @property
-    def pid(self):
-        return self._launch.pid
+    def processes(self):
+        """Ids of what roslaunch has started."""
+        return [pid for pid in processes_of(self._mark) if pid != self._launch.pid]
 
     def runs(self):
         return self._launch.poll() is None

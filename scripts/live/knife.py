@@ -1,6 +1,9 @@
 """The knife of scenes with a cut, by the ground truth."""
 import os
 
+import numpy as np
+from scipy.spatial.transform import Rotation
+
 from live.streams import CAMERA
 
 CONFIG = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../config")
@@ -10,11 +13,7 @@ TRUE_TOOL = "/ground_truth/tool/pose"
 
 def moved(pose, points):
     """Points (rows), transformed by a pose x y z qx qy qz qw."""
-    import numpy as np
-
-    axis, w = np.array(pose[3:6]), pose[6]
-    cross = np.cross(axis, points)
-    return points + 2.0 * (w * cross + np.cross(axis, cross)) + np.array(pose[:3])
+    return Rotation.from_quat(pose[3:]).apply(points) + pose[:3]
 
 
 class Knife:
@@ -42,8 +41,6 @@ class Knife:
             self.shown.add(message.header.stamp.to_sec())
 
     def in_picture(self, marker, pose):
-        import numpy as np
-
         half = 0.5 * marker["size_m"]
         corners = np.array([[x, y, 0.0] for x in (-half, half) for y in (-half, half)])
         homogeneous = moved(pose, moved(marker["pose"], corners)) @ np.reshape(self.info.K, (3, 3)).T

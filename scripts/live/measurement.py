@@ -68,13 +68,13 @@ class Measurement:
 
     def _measure(self, graph):
         camera, options = self.streams[CAMERA], self.options
-        before, self.begin, first = graph_times(graph.pid, "virtual_camera"), time.monotonic(), len(camera.stamps)
+        before, self.begin, first = graph_times(graph.processes(), "virtual_camera"), time.monotonic(), len(camera.stamps)
         # A slow camera delays the scene, and so its cut.
         due, longest_s = (first + options.rate * options.seconds, 4.0 * options.seconds) if options.cuts else (math.inf, options.seconds)
         while len(camera.stamps) < due and time.monotonic() < min(self.begin + longest_s, camera.arrivals[-1] + SILENCE_S):
             graph.sleep(0.01)
         self.end = min(time.monotonic(), camera.arrivals[-1] + 1.0 / options.rate)
-        self.times = {row: seconds - before.get(row, 0.0) for row, seconds in graph_times(graph.pid, "virtual_camera").items()}
+        self.times = {row: seconds - before.get(row, 0.0) for row, seconds in graph_times(graph.processes(), "virtual_camera").items()}
         self.load = os.getloadavg()[0]
         graph.sleep(AFTER_S)
         if not camera.between(self.begin, self.end):

@@ -2,25 +2,13 @@
 import os
 
 
-def read_process(pid):
-    """Parent of a process and its command line, or None if it has ended."""
+def command_line(pid):
+    """The words of a process's command; none if it has ended."""
     try:
-        with open(f"/proc/{pid}/stat") as stat, open(f"/proc/{pid}/cmdline") as line:
-            return int(stat.read().rsplit(")", 1)[1].split()[1]), line.read().split("\0")
+        with open(f"/proc/{pid}/cmdline", encoding="utf-8") as line:
+            return line.read().split("\0")
     except OSError:
-        return None
-
-
-def descendants(root):
-    """Process ids below root, with their command lines."""
-    processes = {int(entry): read_process(entry) for entry in os.listdir("/proc") if entry.isdigit()}
-    found, todo = {}, [root]
-    while todo:
-        parent = todo.pop()
-        children = {pid: process[1] for pid, process in processes.items() if process and process[0] == parent}
-        found.update(children)
-        todo += children
-    return found
+        return []
 
 
 def cpu_seconds(folder):
@@ -53,10 +41,10 @@ def row_of(words):
     return next((word[len("__name:="):] for word in words if word.startswith("__name:=")), program)
 
 
-def graph_times(root, camera):
-    """CPU time [s] so far, by row. A node's callbacks run in the main thread of its process, or in a thread with its name in the
+def graph_times(pids, camera):
+    """CPU time [s] of processes so far, by row. A node's callbacks run in the main thread of its process, or in a thread with its name in the
     manager. All other threads of these processes are "transport". All of a camera with its own process counts as the camera."""
-    processes = descendants(root)
+    processes = {pid: command_line(pid) for pid in pids}
     rows = {pid: row_of(words) for pid, words in processes.items()}
     nodelets = {word[len("__name:="):] for pid, words in processes.items() if rows[pid] == "nodelet_loader"
                 for word in words if word.startswith("__name:=")}
