@@ -1,9 +1,8 @@
 #!/usr/bin/python3
-"""Checks that functions are short, and that the tracker's named constants give a reason.
+"""Checks that functions are short: at most MOST_LINES, from the name to the last line.
 
 Usage: functions.py [ROOT]
-Prints one line per fault; exit code 1 if there is any. A function is at most MOST_LINES long, from its name to its last
-line. A named constant of softbody_tracking's core has a comment that says why it has this value: on its lines or above.
+Prints one line per fault; exit code 1 if there is any.
 """
 import ast
 import pathlib
@@ -14,10 +13,6 @@ MOST_LINES = 40
 NOT_CODE = re.compile(r'//[^\n]*|/\*.*?\*/|R"(\w*)\(.*?\)\1"|"(?:\\.|[^"\\\n])*"|(?<!\w)\'(?:\\.|[^\'\\\n])+\'|^[ \t]*#(?:\\\n|[^\n])*',
                       re.DOTALL | re.MULTILINE)
 SCOPE = re.compile(r"\b(?:namespace|extern)\b|^\s*(?:template\s*<.*>\s*)?(?:class|struct|union|enum)\b[^()]*$", re.DOTALL)
-CONSTANT = re.compile(r"^ *(?:inline |static )*constexpr [\w:<>, ]*\bk[A-Z]\w*(?:\[\w*\])?\s*(?:=|\{)", re.MULTILINE)
-
-# A value with a number, and not computed from another constant.
-IS_CHOSEN = re.compile(r"^(?!.*\bk[A-Z]).*\b\d", re.DOTALL)
 
 
 def blanked(text):
@@ -81,25 +76,9 @@ def length_faults(root):
         yield f"{root}/src: no C++ function found"
 
 
-def constant_faults(root):
-    package = root / "src/softbody_tracking"
-    for path in sorted(path for folder in ("src/core", "include") for path in (package / folder).rglob("*")
-                       if path.suffix in (".h", ".cpp")):
-        text = path.read_text()
-        for match in CONSTANT.finditer(text):
-            end = text.index(";", match.end())
-            if not IS_CHOSEN.search(text[match.end():end]):
-                continue
-            line_end = text.index("\n", end)
-            above = text[:match.start()].rstrip("\n").rsplit("\n", 1)[-1]
-            if "//" not in text[match.start():line_end] and not above.lstrip().startswith("//"):
-                line = text.count("\n", 0, match.start()) + 1
-                yield f"{path.relative_to(root)}:{line}: a constant without a reason: {match.group().strip(' ={')}"
-
-
 def main():
     root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).parents[2]).resolve()
-    faults = [*length_faults(root), *constant_faults(root)]
+    faults = [*length_faults(root)]
     print("\n".join(faults))
     return 1 if faults else 0
 

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Checks that docs/pipeline/rules.md lists every chosen constant of the tracker's core, and nothing else.
+"""Checks that docs/pipeline/rules.md lists every chosen constant of the tracker's core, and nothing else, and that each
+has a comment that says why it has this value: on its lines or above.
 
 Usage: rules.py [ROOT]
 Prints one line per fault; exit code 1 if there is any. A constant is chosen if its value has a number and does not follow
@@ -9,7 +10,7 @@ import pathlib
 import re
 import sys
 
-CORE = "src/softbody_tracking/src/core"
+CORE, PUBLIC = "src/softbody_tracking/src/core", "src/softbody_tracking/include"
 NOT_ON_PAGE = {"tool", "blade", "marker_board"}
 DECLARATION = re.compile(r"\bconstexpr\s+[\w:<>, ]*?\b(k[A-Z]\w*[^;]*);", re.DOTALL)
 NAME = re.compile(r"\s*(k[A-Z]\w*)\s*(?:\[[^\]]*\])?(.*)", re.DOTALL)
@@ -31,18 +32,32 @@ def declared(text):
             part += character
 
 
+def declarations(folder):
+    """(file, its text, a declaration, names of the chosen constants in it)."""
+    for path in sorted([*folder.rglob("*.h"), *folder.rglob("*.cpp")]):
+        text = path.read_text()
+        # Comments become blanks, so that places stay.
+        code = re.sub(r"//[^\n]*", lambda comment: " " * len(comment[0]), text)
+        for declaration in DECLARATION.finditer(code):
+            names = {name for name, value in declared(declaration[1])
+                     if re.search(r"\d", value) and not FOLLOWS.search(value)}
+            if names:
+                yield path.relative_to(folder), text, declaration, names
+
+
 def chosen(root):
     """{(file below core, name)}."""
-    core, names = root / CORE, set()
-    for path in sorted([*core.rglob("*.h"), *core.rglob("*.cpp")]):
-        file = path.relative_to(core)
-        if file.parts[0] in NOT_ON_PAGE:
-            continue
-        code = re.sub(r"//[^\n]*", "", path.read_text())
-        for declaration in DECLARATION.finditer(code):
-            names |= {(str(file), name) for name, value in declared(declaration[1])
-                      if re.search(r"\d", value) and not FOLLOWS.search(value)}
-    return names
+    return {(str(file), name) for file, _, _, names in declarations(root / CORE) for name in names
+            if file.parts[0] not in NOT_ON_PAGE}
+
+
+def without_reason(root):
+    for folder in (CORE, PUBLIC):
+        for file, text, declaration, names in declarations(root / folder):
+            begin, end = text.rindex("\n", 0, declaration.start()), text.index("\n", declaration.end())
+            above = text[:begin].rsplit("\n", 1)[-1].strip()
+            if "//" not in text[begin:end] and not above.startswith("//"):
+                yield f"{folder}/{file}: a constant without a reason: {', '.join(sorted(names))}"
 
 
 def main():
@@ -52,6 +67,7 @@ def main():
     present = chosen(root)
     faults = [f"{file}: {name} is missing in {page}" for file, name in sorted(present - listed)]
     faults += [f"{page}: {file} has no chosen constant {name}" for file, name in sorted(listed - present)]
+    faults += without_reason(root)
     print("\n".join(faults), end="\n" if faults else "")
     return 1 if faults or not present else 0
 

@@ -135,6 +135,7 @@ aruco::Dictionary uprightDictionary(const std::string& name) {
 void requireCornerOrder(const std::string& name, const aruco::Dictionary& dictionary,
                         const aruco::Detector& detector) {
   if (predefined().count(name) == 0) return;
+  // Pixels of a cell, and of the white margin: enough for every detector.
   constexpr int kCell_px = 8, kMargin_px = 2 * kCell_px;
   const int side_px = kCell_px * (dictionary.markerSize + 2);
   cv::Mat1b image(cv::Size(side_px + 2 * kMargin_px, side_px + 2 * kMargin_px), 255);
