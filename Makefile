@@ -58,14 +58,14 @@ fuzz: development  ## give mutated files to every reader and mutated messages to
 evaluate: build  ## measure all scenes and write docs/evaluation.md. SCENES="bend cut": only these scenes, writes nothing
 	scripts/evaluate $(SCENES)
 
-starts: build  ## start tracking on 100 layouts of cluttered scenes; writes docs/starts.md
-	cd scripts && /usr/bin/python3 -m evaluation.measure_starts $(SCENES)
+starts: build  ## start tracking on 100 layouts of cluttered scenes; writes docs/measured/starts.md
+	cd scripts && /usr/bin/python3 -m evaluation.starts $(SCENES)
 
 latency: build  ## measure latency and CPU times of the live graph in 32 ways (12 minutes); writes docs/latency.md
-	cd scripts && /usr/bin/python3 -m evaluation.measure_latency $(SCENES)
+	cd scripts && /usr/bin/python3 -m evaluation.latency $(SCENES)
 
 scans: build  ## scan virtual bodies and faulty recordings, track with the models; writes docs/scans.md. KEEP=yes: keeps the recordings
-	cd scripts && /usr/bin/python3 -m evaluation.measure_scans $(if $(KEEP),--keep) $(SCENES)
+	cd scripts && /usr/bin/python3 -m evaluation.scans $(if $(KEEP),--keep) $(SCENES)
 
 figures: build  ## draw the paper's Figures 1 to 11 with our models, in docs/images
 	scripts/paper figures

@@ -3,9 +3,9 @@
 
 Usage: messages.py [ROOT]
 Prints one line per fault and the number of messages; exit code 1 if there is any. A message names a thing: it has a
-value, a name or a noun. It has a verb: what holds, or what to do. What a node logs also says what is allowed, what to do,
-or what the node does now. Shorter texts than three words are parts of other messages. Each row of "Other messages" in
-docs/troubleshooting.md quotes one of them.
+value, a name or a noun. It has a verb: what holds, or what to do. What a node logs also says what is allowed, what to
+do, or what the node does now. Shorter texts than three words are parts of other messages. Each row of "Other messages"
+in docs/troubleshooting.md quotes one of them.
 """
 import ast
 import pathlib
@@ -13,7 +13,7 @@ import re
 import sys
 
 VARIES = "..."
-# What leads to a message: an exception, a log message, a helper that throws or warns, a reason in a status or an answer.
+# What leads to a message: an exception, a log, a helper that throws or warns, a reason in a status or an answer.
 SAYS = re.compile(r"\bthrow\s+(?!CLI::)[\w:]+\s*[({]"
                   r"|\b(?P<log>(?:ROS|NODELET)_(?:WARN|ERROR|FATAL))\w*\s*\("
                   r"|\b(?:fail|failAt|refuse|logDropped|tell)\("
@@ -24,14 +24,16 @@ TOKEN = re.compile(r'"(?:[^"\\\n]|\\.)*"|\'(?:[^\'\\\n]|\\.)\'|//[^\n]*|[A-Za-z_
 WRAPS = {"std", "string", "fmt", "format", "runtime_error", "invalid_argument", "to_string"}
 NAMES = re.compile(r"\.\.\.|[/_<'\"]|--\w|[A-Z]{2}|\b(?:the|an?|its?|no|this|there|nothing)\b", re.IGNORECASE)
 HOLDS = re.compile(
-    r"\b(?:is|are|was|were|has|have|had|can|cannot|could|would|may|does|do|did|must|no|not|only|without|agrees?|announces|"
-    r"belongs|bounds?|came|comes?|contains|crosses|cross|differs?|ended|ends?|exists|fills?|fits?|gives?|goes|holds?|intersects|"
-    r"knows?|leaves?|lies?|meets|misses|names?|needs?|overlap|passes|reach(?:es)?|refers|shows?|stays?|touch(?:es)?|tracked|twice)\b|\s\.\.\.$")
+    r"\b(?:is|are|was|were|has|have|had|can|cannot|could|would|may|does|do|did|must|no|not|only|without|agrees?|"
+    r"announces|belongs|bounds?|came|comes?|contains|crosses|cross|differs?|ended|ends?|exists|fills?|fits?|gives?|"
+    r"goes|holds?|intersects|knows?|leaves?|lies?|meets|misses|names?|needs?|overlap|passes|reach(?:es)?|refers|shows?|"
+    r"stays?|touch(?:es)?|tracked|twice)\b|\s\.\.\.$")
 TO_DO = re.compile(
-    r"\b(?:allowed|must|needs?|expected|instead|only|known|supported|limit|up to|ignored|used|stays?|goes on|dropped|taken|"
-    r"left out|made|starts?|placed|sent|follows?|waiting|until|searched for|held|add|ask|begin|call|check|choose|compare|"
-    r"convert|correct|enlarge|find|give|install|join|keep|let|load|make|measure|move|name|print|publish|put|read|record|"
-    r"release|remove|repair|run|save|see|send|set|source|start|stop|take|turn|use|wait|write|rostopic|rosbag)\b|: \.\.\.|\?$")
+    r"\b(?:allowed|must|needs?|expected|instead|only|known|supported|limit|up to|ignored|used|stays?|goes on|dropped|"
+    r"taken|left out|made|starts?|placed|sent|follows?|waiting|until|searched for|held|add|ask|begin|call|check|choose|"
+    r"compare|convert|correct|enlarge|find|give|install|join|keep|let|load|make|measure|move|name|print|publish|put|"
+    r"read|record|release|remove|repair|run|save|see|send|set|source|start|stop|take|turn|use|wait|write|rostopic|"
+    r"rosbag)\b|: \.\.\.|\?$")
 
 
 def cpp_text(source, begin):
@@ -112,7 +114,8 @@ def main():
     found = [message for message in messages(root) if len(re.findall(r"[A-Za-z_]{2,}", message[2])) > 2]
     faults = [f"{path.relative_to(root)}:{line}: {fault}: {' '.join(text.split())}"
               for path, line, text, is_log in found for fault in faults_of(text, is_log)]
-    faults += stale_rows((root / "docs/troubleshooting.md").read_text(encoding="utf-8"), [text for _, _, text, _ in found])
+    page = (root / "docs/troubleshooting.md").read_text(encoding="utf-8")
+    faults += stale_rows(page, [text for _, _, text, _ in found])
     print("\n".join([*faults, f"{len(found)} messages"]))
     return 1 if faults or not found else 0
 

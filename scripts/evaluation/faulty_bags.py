@@ -1,11 +1,6 @@
-#!/usr/bin/python3
-"""Copies the camera's topics of a virtual recording with a fault. Runs in the environment of the built workspace.
-
-Usage: faulty_bags.py FAULT RECORDING.bag OUTPUT.bag     the recording has labels (virtual_camera --labels)
-"""
+"""Copies the camera's topics of a virtual recording with a fault. The recording has labels (virtual_camera --labels)."""
 import os
 import shutil
-import sys
 
 import numpy
 import rosbag
@@ -20,7 +15,7 @@ HOLES, WRONG, BLOCK_PX, WRONG_MM = 0.3, 0.1, 24, 60  # of a shiny body: shares; 
 def pixels(image):
     """A copy of the pixels, colour as (rows, columns, 3), depth in mm as (rows, columns)."""
     if image._type != "sensor_msgs/Image" or image.encoding not in ("rgb8", "bgr8", "16UC1", "mono8"):
-        sys.exit(f"faulty_bags: {image._type} is not an image of the virtual camera")
+        raise ValueError(f"{image._type} is not an image of the virtual camera")
     kind = "<u2" if image.encoding == "16UC1" else numpy.uint8
     channels = (3,) if image.encoding in ("rgb8", "bgr8") else ()
     return numpy.frombuffer(image.data, kind).reshape(image.height, image.width, *channels).copy()
@@ -124,11 +119,11 @@ FAULTS = {function.__name__: function
           for function in (no_depth, no_info, millimetres, flicker, black, shiny, half, hidden_sheet)}
 
 
-def main():
-    fault, recording, output = sys.argv[1:]
+def write(fault, recording, output):
     if fault == "cut_off":
-        return cut_off(recording, output)
-    with rosbag.Bag(recording) as bag, rosbag.Bag(output, "w", compression="lz4") as changed:
+        cut_off(recording, output)
+        return
+    with rosbag.Bag(str(recording)) as bag, rosbag.Bag(str(output), "w", compression="lz4") as changed:
         bodies, begin, end, kept = bodies_of(bag), bag.get_start_time(), bag.get_end_time(), {}
         for topic, message, time in bag.read_messages():
             if topic.startswith("/ground_truth"):
@@ -137,8 +132,3 @@ def main():
             message = FAULTS[fault](topic, message, Frame(stamp, (time.to_sec() - begin) / (end - begin), bodies, kept))
             if message is not None:
                 changed.write(topic, message, time)
-    return None
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -1,5 +1,5 @@
-"""Figures from the reports of `evaluate`, by scene and kind of run."""
-
+"""Figures from the reports of `evaluate`, by (kind of run, scene)."""
+import collections
 import math
 
 NOISE_FREE = ("bend", "push", "pull", "twist", "press")
@@ -32,26 +32,29 @@ PAPER_TIMES_MS = {
     "Resolution Enhancement (initialization)": {"sponge": 18.41, "doll": 542.31},
 }
 
+# One frame of a report: time in the scene and since the first frame [s], state, errors of the vertices [mm].
+Frame = collections.namedtuple("Frame", "time since state mean visible visible_most covered")
+
 
 def wrong_matches(seed):
     return f"20 % wrong matches, seed {seed}"
 
 
-def number(value, digits=2):
-    return "-" if value is None else f"{value:.{digits}f}"
-
-
-def percent(value, digits=1):
-    return "-" if value is None else f"{100.0 * value:.{digits}f}"
-
-
-def get(report, *keys):
-    """A nested value of a report; None if it is missing."""
-    for key in keys:
-        if report is None:
-            return None
+def get(report, path):
+    """A nested value of a report, by its keys with dots between them; None if it is missing."""
+    for key in path.split("."):
         report = report.get(key) if isinstance(report, dict) else None
     return report
+
+
+def value_of(reports, kind, name, path):
+    """A nested value of one report; None if it was not measured."""
+    return get(reports.get((kind, name)), path)
+
+
+def worst_of(reports, kind, names, path):
+    """The largest of several scenes; None if one was not measured."""
+    return worst(value_of(reports, kind, name, path) for name in names)
 
 
 def of_kind(reports, kind):
@@ -60,61 +63,54 @@ def of_kind(reports, kind):
     return dict(sorted(chosen.items(), key=lambda item: ("_" in item[0], item[0])))
 
 
-def frames(report):
-    return f"{report['frames']['answered']} of {report['frames']['expected']}"
-
-
-def tracking_share(report):
-    states = report.get("states", {})
-    return states.get("tracking", 0) / sum(states.values()) if states else None
-
-
 def worst(values):
     """The largest; None if one was not measured."""
     values = list(values)
     return max(values) if values and all(value is not None for value in values) else None
 
 
-def moving_times(reports):
-    """Mean error with a moving camera over that with a fixed camera, by scene."""
-    keys = ("vertex_error", "all", "mean_mm")
-    return {name: get(moving, *keys) / get(reports[("scene", name)], *keys)
-            for name, moving in of_kind(reports, "moving camera").items()}
+def percents(share):
+    """A share in percent; None if it was not measured."""
+    return None if share is None else 100.0 * share
 
 
-def cluttered_times(reports, scene, part="all"):
-    """Mean error with other things over that of the same motion without them; None if one was not measured."""
-    cluttered, alone = (get(reports.get((kind, scene)), "vertex_error", part, "mean_mm")
-                        for kind in ("cluttered", "uncluttered"))
-    return cluttered / alone if cluttered is not None and alone else None
+def answered(report):
+    return f"{report['frames']['answered']} of {report['frames']['expected']}"
 
 
-def fault_times(reports, scene, fault):
-    """Mean error with a fault over that without; None if one was not measured."""
-    base, faulty = (get(reports.get(key), "vertex_error", "all", "mean_mm")
-                    for key in (("scene", scene), ("fault", (scene, fault))))
-    return None if base is None or faulty is None else faulty / base
+def tracking_share(report):
+    states = get(report, "states")
+    return states.get("tracking", 0) / sum(states.values()) if states else None
 
 
-def within(report, key, first_s=0.0, last_s=math.inf):
-    """Values of a list by frame, at times of the scene from first_s to last_s; without missing ones."""
+def ratio(reports, key, base, part="all"):
+    """Mean error of one report over that of another; None if one was not measured."""
+    mean, usual = (value_of(reports, *which, f"vertex_error.{part}.mean_mm") for which in (key, base))
+    return mean / usual if mean is not None and usual else None
+
+
+def frames_of(report):
+    """The frames with a known error."""
     error = get(report, "vertex_error")
     if error is None:
         return []
-    return [value for time, value in zip(error["frame_times_s"], error[key])
-            if value is not None and first_s <= error["first_time_s"] + time <= last_s]
+    times = error["frame_times_s"]
+    states = [*(report.get("frame_states") or []), *[None] * len(times)]
+    columns = [error[f"frame_{name}_mm"] for name in ("mean", "visible_mean", "visible_max", "covered_mean")]
+    return [Frame(error["first_time_s"] + time, time, *rest) for time, *rest in zip(times, states, *columns)]
 
 
-def mean_within(report, key, first_s=0.0, last_s=math.inf):
-    values = within(report, key, first_s, last_s)
-    return sum(values) / len(values) if values else None
+def mean_within(report, column, first_s=0.0, last_s=math.inf):
+    """Mean of a column of the frames at times of the scene from first_s to last_s; None if there is no value."""
+    values = [getattr(frame, column) for frame in frames_of(report) if first_s <= frame.time <= last_s]
+    known = [value for value in values if value is not None]
+    return sum(known) / len(known) if known else None
 
 
 def visible_while_tracking(report):
     """Of every frame called TRACKING: its largest error of a visible vertex [mm]."""
-    return [largest for state, largest in zip(get(report, "frame_states") or [],
-                                              get(report, "vertex_error", "frame_visible_max_mm") or [])
-            if state == "tracking" and largest is not None]
+    return [frame.visible_most for frame in frames_of(report)
+            if frame.state == "tracking" and frame.visible_most is not None]
 
 
 def false_tracking(report):
@@ -124,68 +120,36 @@ def false_tracking(report):
 
 def wrong_after_start(report):
     """Frames called TRACKING after the first second with a visible vertex far off, of a body placed wrongly."""
-    rows = zip(report["vertex_error"]["frame_times_s"], report["frame_states"],
-               report["vertex_error"]["frame_visible_max_mm"])
-    return sum(time >= FALSE_AFTER_S and state == "tracking" and largest is not None and largest > WRONG_MM
-               for time, state, largest in rows)
+    return sum(frame.since >= FALSE_AFTER_S and frame.state == "tracking" and (frame.visible_most or 0.0) > WRONG_MM
+               for frame in frames_of(report))
 
 
 def time_until_normal(report, unhidden, after_s):
     """Seconds from the first frame without hidden vertices, after a time, until the error stays at most 1.2 times that
     of the same motion without hands, for 0.2 s; infinite: never."""
-    error, normal = get(report, "vertex_error"), get(unhidden, "vertex_error")
-    if error is None or normal is None:
+    frames, usual = frames_of(report), {round(frame.time, 3): frame.mean for frame in frames_of(unhidden)}
+    if not frames or not usual:
         return None
-    times = [error["first_time_s"] + time for time in error["frame_times_s"]]
-    usual = dict(zip((round(normal["first_time_s"] + time, 3) for time in normal["frame_times_s"]),
-                     normal["frame_mean_mm"]))
-    gone = next((time for time, covered in zip(times, error["frame_covered_mean_mm"])
-                 if time >= after_s and covered is None), None)
-    if gone is None:
-        return math.inf
+    gone = next((frame.time for frame in frames if frame.time >= after_s and frame.covered is None), math.inf)
     since = None
-    for time, mean in zip(times, error["frame_mean_mm"]):
-        if time < gone:
-            continue
-        if mean > 1.2 * usual.get(round(time, 3), 0.0):
+    for frame in frames:
+        if frame.time < gone or frame.mean > 1.2 * usual.get(round(frame.time, 3), 0.0):
             since = None
         elif since is None:
-            since = time
-        if since is not None and time - since >= 0.2:
+            since = frame.time
+        if since is not None and frame.time - since >= 0.2:
             return since - gone
     return math.inf
 
 
 def calibration_bins(reports):
-    """{bin: [count, sum of squared predictions, sum of squared errors]} over all scenes [mm^2]."""
+    """(standard deviation [mm], RMS error [mm]) of each bin over all scenes."""
     bins = {}
     for (kind, _), report in reports.items():
-        for row in (get(report, "calibration", "bins") or []) if kind in ("scene", *TEXTURES) else []:
+        for row in (get(report, "calibration.bins") or []) if kind in ("scene", *TEXTURES) else []:
             total = bins.setdefault(math.floor(2.0 * math.log2(max(row["predicted_rms_mm"], 1e-3))), [0, 0.0, 0.0])
             total[0] += row["count"]
             total[1] += row["count"] * row["predicted_rms_mm"] ** 2
             total[2] += row["count"] * row["error_rms_mm"] ** 2
-    return dict(sorted(bins.items()))
-
-
-def summary_line(reports):
-    """One line with the mean error of each scene and fault."""
-    words = []
-    for (kind, name), report in reports.items():
-        if not report:
-            continue
-        if kind == "starts":
-            words.append(f"{name}, {STARTS} starts: {number(report['max_mm'])} mm apart")
-            continue
-        if kind == "placed":
-            words.append(f"{name}: {wrong_after_start(report)} frames tracking and wrong")
-            continue
-        if kind == "wrong":
-            words.append(f"{name}: {number(false_tracking(report), 0)} frames tracking")
-            continue
-        error = get(report, "vertex_error", "all", "mean_mm")
-        what = ", ".join(name) if kind == "fault" else name if kind in ("scene", name) else f"{name}, {kind}"
-        words.append(f"{what}: {number(error)} mm" if error is not None else
-                     f"{what}: {number(get(report, 'depth_residual', 'all', 'residual', 'median_mm'))} mm "
-                     "median depth residual")
-    return "; ".join(words)
+    return [(math.sqrt(predicted / count), math.sqrt(error / count))
+            for _, (count, predicted, error) in sorted(bins.items())]

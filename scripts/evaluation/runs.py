@@ -1,15 +1,14 @@
 """Records, tracks and measures the scenes. Every run returns reports of `evaluate` by (kind, name)."""
 import json
-import pathlib
 import re
-import subprocess
 
+from evaluation import bags
 from evaluation.figures import (CLUTTERED, DEPTH_HOLES, FEW_FEATURES, MOVING, NOISE_FREE, WRONG_MATCH_SEEDS,
                                 wrong_matches)
+from evaluation.poses import moved
+from pages import ROOT
+from tools import OUTPUT, evaluate, recording, tool
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
-DEVEL = ROOT / "catkin_ws/devel"
-OUTPUT = ROOT / "evaluation"
 TOY = ROOT.parent / "shared/data/toys"
 TOY_POSE = "[0.059, -0.038, 0.630, 0.611, -0.488, 0.171, 0.599]"  # rough, from the data set's README
 LONG_S = "60"
@@ -35,47 +34,29 @@ FARTHER_M = {"far": 0.4, "doll_far": 0.4, "two_bodies": 0.25}  # away from the c
 PARAMETERS = {FEW_FEATURES: "feature_tracker: {max_features: 50}\n"}
 
 
-class ToolFailed(Exception):
-    """The output of a tool that failed."""
-
-
-def tool(name, *arguments, package="softbody_bringup"):
-    """Standard output of a tool."""
-    command = [DEVEL / "env.sh", DEVEL / "lib" / package / name, *arguments]
-    run = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
-    if run.returncode != 0:
-        raise ToolFailed(f"{' '.join(map(str, command[1:]))}\n{run.stderr}")
-    return run.stdout
-
-
-def bags(command, *files):
-    """The answer of bags.py."""
-    run = subprocess.run([DEVEL / "env.sh", "/usr/bin/python3", ROOT / "scripts/evaluation/bags.py", command, *files],
-                         stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
-    if run.returncode != 0:
-        raise ToolFailed(f"bags.py {command} {' '.join(map(str, files))}\n{run.stderr}")
-    return json.loads(run.stdout)
-
-
 def all_scenes():
     """Those of a body alone, or with what deforms it."""
     scenes = re.search(r"--scene \S*?\{([^}]*)\}", tool("virtual_camera", "--help"))[1].split(",")
     return [scene for scene in scenes if scene.removeprefix("doll_") not in CLUTTERED]
 
 
-def track(name, recording, config, *more):
+def recorded(name, scene, *arguments):
+    return recording(OUTPUT / f"{name}.bag", scene, *arguments)
+
+
+def track(name, bag, config, *more):
     """The result of `replay`."""
     result = OUTPUT / f"{name}_result.bag"
-    tool("replay", recording, "--object", config, "--output", result, "--timing", *more)
+    tool("replay", bag, "--object", config, "--output", result, "--timing", *more)
     return result
 
 
-def measure(name, recording, config, *against, more=()):
+def measure(name, bag, config, *against, more=(), pictures=True):
     """Tracks a recording, with more arguments for `replay`; the report of `evaluate`."""
-    result = track(name, recording, config, "--labels", *more)
-    text = tool("evaluate", result, *against, "--json", "--report", OUTPUT / name)
-    (OUTPUT / f"{name}.json").write_text(text)
-    return json.loads(text)
+    result = track(name, bag, config, "--labels", *more)
+    report = evaluate(result, *against, *(("--report", OUTPUT / name) if pictures else ()))
+    (OUTPUT / f"{name}.json").write_text(json.dumps(report, indent=1))
+    return report
 
 
 def object_of(scene):
@@ -94,8 +75,7 @@ def changed(config, name, pattern, text):
 
 def with_pose(config, name, pose):
     """The object with another rough pose."""
-    numbers = ", ".join(f"{number:.9f}" for number in pose)
-    return changed(config, name, r"initial_pose:.*", f"initial_pose: [{numbers}]")
+    return changed(config, name, r"initial_pose:.*", f"initial_pose: [{', '.join(f'{part:.9f}' for part in pose)}]")
 
 
 def pose_of(config):
@@ -111,8 +91,7 @@ def config_of(scene, name):
                 ("--allow-outside", "--forces"))
     if scene not in FARTHER_M:
         return config, ()
-    pose = pose_of(config)
-    return with_pose(config, name, [*pose[:2], pose[2] + FARTHER_M[scene], *pose[3:]]), ("--allow-outside",)
+    return with_pose(config, name, moved(pose_of(config), (0.0, 0.0, 1.0), FARTHER_M[scene])), ("--allow-outside",)
 
 
 def tool_of(scene):
@@ -122,35 +101,32 @@ def tool_of(scene):
     return ("--tool", ROOT / "config/knife.yaml") if re.search(r"(^|_)cut", scene) else ()
 
 
-def scene_run(kind, scene, *camera_arguments, replay_arguments=()):
-    """Records and measures one scene; {(kind, scene): report}. Faults are put into the same recording."""
+def scene_run(kind, scene, camera=(), replay=()):
+    """Records and measures one scene, with more arguments of the camera and of `replay`; {(kind, scene): report}.
+    Faults are put into the same recording."""
     name = scene if kind == "scene" else f"{scene}_{kind.replace(' ', '_')}"
-    recording = OUTPUT / f"{name}.bag"
-    tool("virtual_camera", "--scene", scene, "--labels", "--output", recording, *camera_arguments)
-    config, allowed = config_of(scene, name)
-    reports, unhidden = {}, ()
-    if kind == "scene" and scene in HIDDEN:
-        other = unhidden_result(scene, config)
-        unhidden = ("--unhidden", other)
-        reports[("unhidden", scene)] = json.loads(tool("evaluate", other, "--truth", recording, "--json"))
-    reports[(kind, scene)] = measure(name, recording, config, "--truth", recording, *unhidden,
-                                     more=(*tool_of(scene), *allowed, *replay_arguments))
-    if kind == "scene" and scene in WRONG_MATCH_SEEDS:
-        reports.update(fault_runs(scene, recording, config))
-    if kind == "scene" and scene in NOISE_FREE:
-        reports.update(model_runs(scene, recording, config))
-    recording.unlink()  # some 1.2 MB a frame
+    with recorded(name, scene, "--labels", *camera) as bag:
+        config, allowed = config_of(scene, name)
+        reports, unhidden = {}, ()
+        if kind == "scene" and scene in HIDDEN:
+            unhidden = ("--unhidden", unhidden_result(scene, config))
+            reports[("unhidden", scene)] = evaluate(unhidden[1], "--truth", bag)
+        reports[(kind, scene)] = measure(name, bag, config, "--truth", bag, *unhidden,
+                                         more=(*tool_of(scene), *allowed, *replay))
+        if kind == "scene" and scene in WRONG_MATCH_SEEDS:
+            reports.update(fault_runs(scene, bag, config))
+        if kind == "scene" and scene in NOISE_FREE:
+            reports.update(model_runs(scene, bag, config))
     return reports
 
 
-def with_known(scene, recording, config):
+def with_known(scene, bag, config):
     """Arguments of `replay` for the other things of a scene that are known, and of `evaluate` for the body."""
     if scene == "arm":
-        return ("--robot", f"{recording}.urdf"), ()
+        return ("--robot", f"{bag}.urdf"), ()
     if scene != "two_bodies":
         return (), ()
-    second = with_pose(ROOT / "config/doll.yaml", f"{config.stem}_second",
-                       bags("pose", recording, "ground_truth_second"))
+    second = with_pose(ROOT / "config/doll.yaml", f"{config.stem}_second", bags.pose(bag, "ground_truth_second"))
     return ("--object", second), ("--namespace", f"/{config.stem}")
 
 
@@ -158,25 +134,20 @@ def cluttered_run(scene):
     """A scene with other things, and the same motion without them; both on the truth with them."""
     name = f"cluttered_{scene}"
     config, allowed = config_of(scene, name)
-    recording, alone = OUTPUT / f"{name}.bag", OUTPUT / f"{name}_alone.bag"
-    tool("virtual_camera", "--scene", scene, "--labels", "--output", recording)
-    tool("virtual_camera", "--scene", scene, "--no-hands", "--output", alone)
-    result = track(f"{name}_alone", alone, config, *allowed)
-    known, which = with_known(scene, recording, config)
-    reports = {("cluttered", scene): measure(name, recording, config, "--truth", recording, *which,
-                                             more=(*allowed, *known)),
-               ("uncluttered", scene): json.loads(tool("evaluate", result, "--truth", recording, "--json"))}
-    recording.unlink()
-    alone.unlink()
-    return reports
+    with recorded(f"{name}_alone", scene, "--no-hands") as alone:
+        result = track(f"{name}_alone", alone, config, *allowed)
+    with recorded(name, scene, "--labels") as bag:
+        known, which = with_known(scene, bag, config)
+        return {("cluttered", scene): measure(name, bag, config, "--truth", bag, *which, more=(*allowed, *known)),
+                ("uncluttered", scene): evaluate(result, "--truth", bag)}
 
 
-def model_runs(scene, recording, config):
+def model_runs(scene, bag, config):
     """The same scene with a finer volume, and both volumes simulated from the exact visible vertices."""
     fine = fine_sponge(scene)
-    return {("fine", scene): measure(f"{scene}_fine", recording, fine, "--truth", recording),
-            ("exact", scene): simulate(f"{scene}_exact", recording, config),
-            ("fine exact", scene): simulate(f"{scene}_fine_exact", recording, fine)}
+    return {("fine", scene): measure(f"{scene}_fine", bag, fine, "--truth", bag),
+            ("exact", scene): simulate(f"{scene}_exact", bag, config),
+            ("fine exact", scene): simulate(f"{scene}_fine_exact", bag, fine)}
 
 
 def fine_sponge(scene):
@@ -193,18 +164,15 @@ def simulate(name, truth, config):
     """The report of `evaluate` on `simulate_truth`."""
     result = OUTPUT / f"{name}.bag"
     tool("simulate_truth", truth, "--object", config, "--output", result)
-    report = json.loads(tool("evaluate", result, "--truth", truth, "--json"))
+    report = evaluate(result, "--truth", truth)
     result.unlink()
     return report
 
 
 def unhidden_result(scene, config):
     """Result for the same motion without the hand."""
-    recording = OUTPUT / f"{scene}_unhidden.bag"
-    tool("virtual_camera", "--scene", scene, "--no-hands", "--output", recording)
-    result = track(f"{scene}_unhidden", recording, config)
-    recording.unlink()
-    return result
+    with recorded(f"{scene}_unhidden", scene, "--no-hands") as bag:
+        return track(f"{scene}_unhidden", bag, config)
 
 
 def faults_of(scene):
@@ -212,21 +180,21 @@ def faults_of(scene):
     return {**HOLES, **drawn, **MORE_FAULTS.get(scene, {})}
 
 
-def fault_runs(scene, recording, config):
+def fault_runs(scene, bag, config):
     """The same recording with faults, and with other parameters; {("fault", (scene, fault)): report}."""
     reports = {}
     for number, (fault, arguments) in enumerate(faults_of(scene).items(), 1):
         name = f"{scene}_fault_{number}"
         faulty = OUTPUT / f"{name}.bag"
-        tool("inject", recording, "--output", faulty, *arguments)
-        reports[("fault", (scene, fault))] = measure(name, faulty, config, "--truth", recording, "--recording", faulty)
+        tool("inject", bag, "--output", faulty, *arguments)
+        reports[("fault", (scene, fault))] = measure(name, faulty, config, "--truth", bag, "--recording", faulty)
         faulty.unlink()
     for number, (change, text) in enumerate(PARAMETERS.items(), 1):
         name = f"{scene}_parameters_{number}"
         parameters = OUTPUT / f"{name}.yaml"
         parameters.write_text(text)
-        reports[("fault", (scene, change))] = measure(name, recording, config, "--truth", recording,
-                                                     more=("--parameters", parameters))
+        reports[("fault", (scene, change))] = measure(name, bag, config, "--truth", bag,
+                                                      more=("--parameters", parameters))
     return reports
 
 
@@ -234,28 +202,27 @@ def toy_run():
     """Report of the recorded toy, depth only; empty if the recording is missing."""
     if not TOY.is_dir():
         return {("toys", "toys"): {}}
-    recording, config = OUTPUT / "toys.bag", OUTPUT / "toys.yaml"
+    bag, config, reports = OUTPUT / "toys.bag", OUTPUT / "toys.yaml", {}
     body = f"object:\n  visual_mesh: {TOY}/toy_surface.obj\n  tet_mesh: {TOY}/toy_tets.vtu\n"
-    tool("import_images", TOY, "--output", recording)
-    reports = {}
+    tool("import_images", TOY, "--output", bag)
     for kind, pose in (("toys", f"  initial_pose: {TOY_POSE}\n"), ("no pose", "")):
         config.write_text(body + pose)
-        reports[(kind, "toys")] = measure(kind.replace(" ", "_"), recording, config, "--recording", recording,
+        reports[(kind, "toys")] = measure(kind.replace(" ", "_"), bag, config, "--recording", bag,
                                           more=("--allow-outside",))
-    recording.unlink()
+    bag.unlink()
     return reports
 
 
 def runs(scenes):
-    """Every piece of work as (words, function), the longest first."""
-    work = [(f"{scene}, {LONG_S} s", lambda scene=scene: scene_run("long", scene, "--duration", LONG_S))
-            for scene in LONG if scene in scenes]
-    work += [(scene, lambda scene=scene: scene_run("scene", scene)) for scene in scenes
-             if scene not in ("toys", *CLUTTERED)]
-    work += [(scene, lambda scene=scene: cluttered_run(scene)) for scene in CLUTTERED if scene in scenes]
-    work += [(f"{scene}, noise off", lambda scene=scene: scene_run("noise off", scene, "--noise", "off"))
-             for scene in NOISE_FREE if scene in scenes]
-    work += [(f"{scene}, moving camera",
-              lambda scene=scene: scene_run("moving camera", scene, *MOTION, replay_arguments=WORLD))
-             for scene in MOVING if scene in scenes]
-    return work + ([("toys", toy_run)] if "toys" in scenes else [])
+    """Pieces of work (words, function, arguments...), the longest first."""
+    def those(among):
+        return [scene for scene in among if scene in scenes]
+
+    alone = [scene for scene in scenes if scene not in ("toys", *CLUTTERED)]
+    return [*((f"{scene}, {LONG_S} s", scene_run, "long", scene, ("--duration", LONG_S)) for scene in those(LONG)),
+            *((scene, scene_run, "scene", scene) for scene in alone),
+            *((scene, cluttered_run, scene) for scene in those(CLUTTERED)),
+            *((f"{scene}, noise off", scene_run, "noise off", scene, ("--noise", "off"))
+              for scene in those(NOISE_FREE)),
+            *((f"{scene}, moving camera", scene_run, "moving camera", scene, MOTION, WORLD) for scene in those(MOVING)),
+            *((scene, toy_run) for scene in those(("toys",)))]

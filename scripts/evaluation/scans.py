@@ -1,15 +1,24 @@
-"""Rows of `make scans`: recordings of the virtual camera, what `scan_model` makes of them, and how right it is."""
+"""How right models from recordings are: records walks round three bodies, scans them, and compares with the truth.
+
+Then scans recordings with faults: each must give a right model, or no model and a reason. At last it tracks scenes with
+scanned models and with the true mesh. Writes docs/scans.md; recordings (some 900 MB each), models and results go to
+evaluation/scans. Each recording is removed after its last use. Run by `make scans`.
+
+Usage, in scripts/: python3 -m evaluation.scans [--keep] [ROW...]
+With rows: only these are measured, and nothing is written
+  --keep   keeps the recordings; a later run uses them again
+"""
 import dataclasses
-import datetime
 import json
-import os
 import shutil
-import subprocess
+import sys
 import time
 
-from evaluation.document import commit
-from evaluation.runs import DEVEL, OUTPUT, ROOT, ToolFailed, tool
+from evaluation import faulty_bags
 from evaluation.scan_bodies import write_scaled, write_toy
+from evaluation.scans_tables import rows_of
+from pages import ROOT, commit, publish, row_of
+from tools import OUTPUT, chosen, evaluate, run_measured, tool
 
 FOLDER = OUTPUT / "scans"
 LARGER = 1.5  # than the sponge: covers markers
@@ -17,6 +26,7 @@ TRUE = {"sponge": ROOT / "config/sponge.obj", "doll": ROOT / "config/doll.obj", 
         "large": FOLDER / "large.obj"}
 WORDS = {"sponge": "sponge", "doll": "doll", "toy": "toy with thin legs"}
 NO_SHEET = ("--sheet", "none")
+MODELS = ("sponge_walk", "sponge_flip")  # rows whose models are tracked
 
 
 @dataclasses.dataclass(frozen=True)
@@ -48,6 +58,11 @@ class Row:
     def body(self):
         return self.recordings[0].body
 
+    @property
+    def result(self):
+        """The file of its result."""
+        return FOLDER / f"{self.name}.json"
+
 
 def body_rows(body):
     words = WORDS[body]
@@ -56,7 +71,8 @@ def body_rows(body):
     return [
         Row(f"{body}_walk", f"{words}: walk", (walk,)),
         Row(f"{body}_flip", f"{words}: walk, and turned over", (walk, Recording(body, "flip"))),
-        Row(f"{body}_tf", f"{words}: no sheet, camera on an arm", (Recording(body, "walk", (*NO_SHEET, "--camera-tf")),)),
+        Row(f"{body}_tf", f"{words}: no sheet, camera on an arm",
+            (Recording(body, "walk", (*NO_SHEET, "--camera-tf")),)),
         Row(f"{body}_none_rich", f"{words}: no sheet, rich texture", (Recording(body, "walk", NO_SHEET),), False),
         Row(f"{body}_none_weak", f"{words}: no sheet, weak texture",
             (Recording(body, "walk", (*NO_SHEET, "--texture", "weak")),), False)]
@@ -66,7 +82,8 @@ def good_rows():
     return [
         *(row for body in WORDS for row in body_rows(body)),
         Row("turntable", "sponge: turntable", (Recording("sponge", "turntable"),)),
-        Row("hand_jerks", "sponge: a hand passes, and jerks of 0.3 m/s", (Recording("sponge", "walk_hand", ("--jerks",)),)),
+        Row("hand_jerks", "sponge: a hand passes, and jerks of 0.3 m/s",
+            (Recording("sponge", "walk_hand", ("--jerks",)),)),
         Row("seed", "sponge: walk, another seed", (Recording("sponge", "walk", ("--seed", "2")),))]
 
 
@@ -88,10 +105,23 @@ def faulty_rows():
         Row("fault_hidden_sheet", "sheet not seen for a third of the time", walk, fault=("hidden_sheet",))]
 
 
+def tracking_rows():
+    """Scenes that track the sponge with its true mesh and with scanned models; its recording, then theirs."""
+    scanned = dict.fromkeys(recording for row in good_rows() if row.name in MODELS for recording in row.recordings)
+    return [Row(f"track_{scene}", f"sponge: {scene}", (Recording("sponge", scene), *scanned))
+            for scene in ("bend", "push", "touch")]
+
+
 def make_bodies():
     FOLDER.mkdir(parents=True, exist_ok=True)
     write_toy(TRUE["toy"])
     write_scaled(TRUE["sponge"], LARGER, TRUE["large"])
+
+
+def record(recordings):
+    for recording in recordings:
+        if not recording.path.exists():
+            tool("virtual_camera", *recording.camera_arguments())
 
 
 def with_fault(row):
@@ -101,48 +131,81 @@ def with_fault(row):
     original, faulty = row.recordings[0].path, FOLDER / f"{row.name}.bag"
     if row.fault[0] == "inject":
         tool("inject", original, "--output", faulty, *row.fault[1:])
-        return [faulty]
-    command = [DEVEL / "env.sh", "/usr/bin/python3", ROOT / "scripts/evaluation/faulty_bags.py", *row.fault, original, faulty]
-    run = subprocess.run(command, stderr=subprocess.PIPE, text=True, check=False)
-    if run.returncode != 0:
-        raise ToolFailed(f"faulty_bags.py {row.fault[0]}\n{run.stderr}")
+    else:
+        faulty_bags.write(row.fault[0], original, faulty)
     return [faulty]
 
 
-def scan(bags, model, log):
-    """Runs `scan_model` with default settings: exit code, wall time [s], CPU time [s], memory [GB], what it printed."""
-    command = [DEVEL / "env.sh", DEVEL / "lib/softbody_bringup/scan_model", *bags, "--output", model]
-    begin = time.monotonic()
-    with open(log, "w", encoding="utf-8") as file, subprocess.Popen(command, stdout=file, stderr=file) as process:
-        _, status, usage = os.wait4(process.pid, 0)
-        process.returncode = os.waitstatus_to_exitcode(status)
-    return {"code": process.returncode, "seconds": time.monotonic() - begin, "cpu_seconds": usage.ru_utime + usage.ru_stime,
-            "memory_gb": 1024e-9 * usage.ru_maxrss, "text": log.read_text()}
-
-
-def measure(row):
-    """Makes what is missing and measures a row; the result is kept in evaluation/scans."""
-    for recording in row.recordings:
-        if not recording.path.exists():
-            tool("virtual_camera", *recording.camera_arguments())
-    bags, model = with_fault(row), FOLDER / row.name
+def scan(row):
+    """Makes a model with default settings."""
+    record(row.recordings)
+    bags, model, log = with_fault(row), FOLDER / row.name, FOLDER / f"{row.name}.log"
     shutil.rmtree(model, ignore_errors=True)
-    result = {"commit": commit(ROOT), "date": str(datetime.date.today()),
-              **scan(bags, model, FOLDER / f"{row.name}.log")}
+    code, seconds, usage = run_measured("scan_model", *bags, "--output", model, log=log)
     if row.fault:
         bags[0].unlink()
-    if result["code"] in (0, 3):
-        result["report"] = json.loads(tool("evaluate", "--model", model, TRUE[row.body], "--json"))
-    path_of(row).write_text(json.dumps(result, indent=1))
+    result = {"code": code, "seconds": seconds, "cpu_seconds": usage.ru_utime + usage.ru_stime,
+              "memory_gb": 1024e-9 * usage.ru_maxrss, "text": log.read_text()}
+    if code in (0, 3):
+        result["report"] = evaluate("--model", model, TRUE[row.body])
     return result
 
 
-def path_of(row):
-    """The file of its result."""
-    return FOLDER / f"{row.name}.json"
+def scanned_object(model):
+    """The object YAML of a scanned model; one of another commit is made again."""
+    row = next(row for row in good_rows() if row.name == model)
+    if not row.result.exists() or json.loads(row.result.read_text())["commit"] != commit():
+        measure(row, scan)
+    return FOLDER / model / "object.yaml"
 
 
-def measured(rows):
-    """(row, result) of those that were measured."""
-    files = [(row, path_of(row)) for row in rows]
-    return [(row, json.loads(file.read_text())) for row, file in files if file.exists()]
+def track(row, description):
+    """The report of `evaluate` on `replay` with default settings."""
+    bag, result = row.recordings[0].path, FOLDER / f"{row.name}_result.bag"
+    tool("replay", bag, "--object", description, "--output", result)
+    report = evaluate(result, "--truth", bag)
+    result.unlink()
+    return report
+
+
+def track_all(row):
+    """Tracks a scene with each mesh."""
+    record(row.recordings[:1])
+    return {"true": track(row, ROOT / "config/sponge.yaml"),
+            "scanned": {model: track(row, scanned_object(model)) for model in MODELS}}
+
+
+def measure(row, how):
+    """Measures a row; the result is kept in evaluation/scans."""
+    result = {"commit": commit(), **how(row)}
+    row.result.write_text(json.dumps(result, indent=1))
+    return result
+
+
+def perform(rows, keep):
+    make_bodies()
+    start, tracking = time.monotonic(), tracking_rows()
+    for done, row in enumerate(rows, 1):
+        result = measure(row, track_all if row in tracking else scan)
+        print(f"[{done}/{len(rows)}, {time.monotonic() - start:.0f} s]", *map(row_of, rows_of(row, result)),
+              file=sys.stderr, flush=True)
+        later = {recording for other in rows[done:] for recording in other.recordings}
+        for recording in {*row.recordings} - later:
+            if not keep:
+                recording.path.unlink(missing_ok=True)
+
+
+def main():
+    parts = {"Recordings": good_rows(), "Faulty recordings": faulty_rows(),
+             "Tracking with the scanned model": tracking_rows()}
+    known = {row.name: row for part in parts.values() for row in part}
+    names = chosen(known, [word for word in sys.argv[1:] if word != "--keep"])
+    perform([known[name] for name in names], "--keep" in sys.argv)
+    tables = {heading: [cells for row in part if row.name in names
+                        for cells in rows_of(row, json.loads(row.result.read_text()))]
+              for heading, part in parts.items()}
+    publish("scans.md", "scans", tables, complete=names == list(known))
+
+
+if __name__ == "__main__":
+    main()

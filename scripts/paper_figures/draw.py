@@ -1,22 +1,11 @@
-#!/usr/bin/python3
-"""Draws the figures of Kang et al. 2022 with our bodies, a sheet with all of them, and a film. Runs in the environment
-of the workspace, by `scripts/paper figures`.
-
-Usage: draw.py FOLDER OUTPUT
-FOLDER has recordings (NAME.bag), results (NAME_result.bag), and figure_10.png, figure_11.png of `draw_cut`. OUTPUT gets
-figure_1.webp to figure_11.webp, the sheet figures.webp, and film.webp.
-"""
-import pathlib
-import sys
-
+"""Draws the figures of Kang et al. 2022 with our bodies, a sheet with all of them, and a film."""
 from matplotlib import pyplot
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
-from paper_figures.drawing import DPI, save  # noqa: E402
-from paper_figures.figures import DRAWN  # noqa: E402
-from paper_figures.film import make_film  # noqa: E402
-from paper_figures.moments import around_cut, at, moments  # noqa: E402
-from paper_figures.torn import around_tear, figure_10  # noqa: E402
+from paper_figures.drawing import DPI, save
+from paper_figures.figures import DRAWN
+from paper_figures.film import make_film
+from paper_figures.moments import around_cut, at, moments
+from paper_figures.torn import around_tear, figure_10
 
 MOVED = ("bend", "push", "pull", "doll_bend", "doll_push", "doll_pull")
 AS_WRITTEN = ("bend", "push", "doll_push")
@@ -71,17 +60,14 @@ def sheet(pictures):
     return figure
 
 
-def main():
-    folder, output = map(pathlib.Path, sys.argv[1:])
+def draw(folder, output):
+    """@param folder with recordings (NAME.bag), results (NAME_result.bag), and figure_10.png, figure_11.png of `draw_cut`;
+    @param output gets figure_1.webp to figure_11.webp, the sheet figures.webp, and film.webp."""
     pictures = {number: output / f"figure_{number}.webp" for number in (*DRAWN, CUT, BOARD)}
     scenes = read_scenes(folder)
-    for number, draw in DRAWN.items():
-        save(draw(scenes), pictures[number])
+    for number, figure in DRAWN.items():
+        save(figure(scenes), pictures[number])
     save(figure_10(pyplot.imread(folder / f"figure_{CUT}.png"), scenes["tear"]), pictures[CUT])
     save(full(pyplot.imread(folder / f"figure_{BOARD}.png")), pictures[BOARD])
     save(sheet(pictures), output / "figures.webp", SHEET_BYTES)
     make_film(folder, output / "film.webp")
-
-
-if __name__ == "__main__":
-    main()

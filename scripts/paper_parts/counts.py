@@ -1,12 +1,5 @@
-#!/usr/bin/python3
-"""What a bag of `replay` has of the body, as JSON: vertices and polygons of the three models, and the median numbers of
-features that are bound to the body and matched in a frame. Runs in the environment of the workspace.
-
-Usage: counts.py RESULT.bag
-"""
-import json
+"""What bags have of the body."""
 import statistics
-import sys
 
 import rosbag
 
@@ -14,8 +7,14 @@ TOPOLOGIES = ("/softbody/surface/topology", "/softbody/volume/topology")
 STATUS = "/softbody/status"
 
 
+def counts(result):
+    """Vertices and polygons of the three models of the uncut body, and the median numbers of features that are bound to
+    the body and matched in a frame."""
+    with rosbag.Bag(str(result)) as bag:
+        return {"sizes": sizes(bag), "features": features(bag)}
+
+
 def sizes(bag):
-    """{model: [vertices, polygons]} of the uncut body."""
     surface, volume = (next(bag.read_messages(topics=topic)).message for topic in TOPOLOGIES)
     boundary = {vertex for triangle in volume.surface_triangles for vertex in triangle.vertex_indices}
     return {"High-resolution": [len(surface.rest_vertices), len(surface.triangles)],
@@ -29,10 +28,12 @@ def features(bag):
             "matched": statistics.median(message.features_tracked for message in status)}
 
 
-def main():
-    with rosbag.Bag(sys.argv[1]) as bag:
-        print(json.dumps({"sizes": sizes(bag), "features": features(bag)}))
-
-
-if __name__ == "__main__":
-    main()
+def tear_times(result, recording):
+    """Times at which a body tears [s from the first frame]: in the truth, and each tear in the result."""
+    with rosbag.Bag(str(recording)) as bag:
+        bodies = [message for _, message, _ in bag.read_messages(topics="/ground_truth/surface/topology")]
+    start = bodies[0].header.stamp
+    truth = next(body.header.stamp for body in bodies if body.revision == 1)
+    with rosbag.Bag(str(result)) as bag:
+        tears = [message.header.stamp for _, message, _ in bag.read_messages(topics="/softbody/cut")]
+    return {"truth_s": (truth - start).to_sec(), "tears_s": [(tear - start).to_sec() for tear in tears]}

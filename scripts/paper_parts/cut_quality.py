@@ -1,17 +1,10 @@
-#!/usr/bin/python3
-"""Shape of the triangles at the cut, holes, change of the volume, and times of the cuts in a bag of `replay --timing`,
-as JSON. Runs in the environment of the workspace.
+"""Shape of the triangles at the cut, holes, change of the volume, and times of the cuts in a bag of `replay --timing`.
 
-Usage: cut_quality.py RESULT.bag
 "Before" are the triangles of the uncut surface that a plane through the cut splits. "After" are the triangles of the
 skin that touch the cut. "Faces" are the triangles of the faces of the cut.
 """
-import json
-import sys
-
 import numpy as np
 import rosbag
-import softbody
 
 SHARP_DEG = 10.0
 NARROW_DEG = 20.0
@@ -84,15 +77,12 @@ def of_triangles(corners):
             "narrow_share": float((angles < NARROW_DEG).mean())}
 
 
-def main():
-    topologies = [state.topology for state in softbody.read(sys.argv[1])]
+def cut_quality(result):
+    import softbody  # in the built workspace
+
+    topologies = [state.topology for state in softbody.read(str(result))]
     uncut, cut = topologies[0], topologies[-1]
-    times = cut_times(sys.argv[1])
-    print(json.dumps({"before": of_triangles(before(uncut, cut)), "after": of_triangles(after(cut)),
-                      "faces": of_triangles(faces(cut)), "holes": holes(cut),
-                      "volume_change": volume(cut) / volume(uncut) - 1, "cuts": len(times),
-                      "median_ms": float(np.median(times)), "worst_ms": max(times)}))
-
-
-if __name__ == "__main__":
-    main()
+    times = cut_times(str(result))
+    return {"before": of_triangles(before(uncut, cut)), "after": of_triangles(after(cut)),
+            "faces": of_triangles(faces(cut)), "holes": holes(cut), "volume_change": volume(cut) / volume(uncut) - 1,
+            "cuts": len(times), "median_ms": float(np.median(times)), "worst_ms": max(times)}

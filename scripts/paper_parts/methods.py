@@ -1,7 +1,7 @@
 """The methods that `make paper` compares, as parameters of `replay`."""
 import re
 
-from evaluation.runs import ROOT
+from pages import ROOT
 
 OURS = "ours"
 PAPER_FILE = ROOT / "config/paper.yaml"

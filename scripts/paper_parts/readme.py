@@ -1,6 +1,6 @@
 """The paper's figures beside ours in README.md."""
-from evaluation.figures import PAPER_MEAN_ERROR_MM, number
-from markdown_lines import table
+from evaluation.figures import PAPER_MEAN_ERROR_MM
+from pages import number
 from paper_parts.methods import OURS, SCENES, WITH_PD, compared
 from paper_parts.tables import errors
 from paper_parts.time_table import PAPER, totals
@@ -26,6 +26,6 @@ def time_row(reports, what, initialization):
             *(" / ".join(number(times[(body, kind)]) for body in WORDS) for kind in SHOWN)]
 
 
-def readme_lines(reports):
-    return table(["", *SHOWN], [*error_rows(reports), time_row(reports, "time of a frame", False),
-                                time_row(reports, "initialization without registration", True)])
+def readme_rows(reports):
+    return [*error_rows(reports), time_row(reports, "time of a frame", False),
+            time_row(reports, "initialization without registration", True)]

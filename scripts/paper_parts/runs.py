@@ -1,14 +1,14 @@
 """Records and tracks the scenes of `make paper`: a scene once with each texture, equal runs once."""
-import concurrent.futures
 import json
 import shutil
-import subprocess
-import sys
-import time
 import typing
 
-from evaluation.runs import DEVEL, OUTPUT, ROOT, ToolFailed, object_of, tool, tool_of
+from evaluation.runs import object_of, tool_of
+from pages import ROOT
+from paper_parts.counts import counts, tear_times
+from paper_parts.cut_quality import cut_quality
 from paper_parts.methods import CUT_THROUGH, TEAR
+from tools import OUTPUT, evaluate, perform, tool
 
 FOLDER = OUTPUT / "paper"
 BOARD = "cut_board"  # scene cut; the marked board itself is the blade
@@ -31,7 +31,7 @@ class Run(typing.NamedTuple):
         return self.scene, self.texture
 
 
-def perform(runs, timed, kept, jobs):
+def measured(runs, timed, kept):
     """Reports by run: those of `evaluate`, with more that is read from the result. Runs in `timed` have the machine for
     themselves. The results of runs in `kept` and the recordings stay until clear_bags(); the reports name them.
     """
@@ -40,55 +40,19 @@ def perform(runs, timed, kept, jobs):
     if any(run.model for run in runs):
         tool("prepare_model", ROOT / "config/doll.obj", "--cage-vertices", COARSE_VERTICES, "--output", FOLDER / COARSE,
              package="softbody_sim")
-    recordings = recorded(dict.fromkeys(run.recorded for run in runs), jobs)
-    say, reports = progress(len(runs)), {}
-    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
-        pending = {pool.submit(measure, number, run, recordings[run.recorded], run in kept): run
-                   for number, run in enumerate(runs) if run not in timed}
-        for run, report in as_they_end(pool, pending):
-            reports[run] = report
-            say(run.scene)
-    for number, run in enumerate(runs):
-        if run in timed:
-            reports[run] = measure(number, run, recordings[run.recorded], run in kept)
-            say(f"{run.scene}, alone")
-    return reports
-
-
-def as_they_end(pool, pending):
-    """(what it is for, its result) of every future. If one fails, those that wait are not begun."""
-    try:
-        for future in concurrent.futures.as_completed(pending):
-            yield pending[future], future.result()
-    except ToolFailed:
-        pool.shutdown(cancel_futures=True)
-        raise
+    needed = list(dict.fromkeys(run.recorded for run in runs))
+    recordings = dict(zip(needed, perform([(f"{scene} {texture} recorded", record, scene, texture)
+                                           for scene, texture in needed])))
+    work = {run: (run.scene, measure, number, run, recordings[run.recorded], run in kept)
+            for number, run in enumerate(runs)}
+    beside, alone = ([run for run in runs if (run in timed) == is_timed] for is_timed in (False, True))
+    return {**dict(zip(beside, perform([work[run] for run in beside]))),
+            **dict(zip(alone, perform([work[run] for run in alone], jobs=1)))}
 
 
 def clear_bags():
     for bag in FOLDER.glob("*.bag"):
         bag.unlink()
-
-
-def progress(count):
-    """A function that says how many of so many runs are done."""
-    start, done = time.monotonic(), []
-
-    def say(words):
-        done.append(words)
-        print(f"[{len(done)}/{count}, {time.monotonic() - start:.0f} s] {words}", file=sys.stderr, flush=True)
-
-    return say
-
-
-def recorded(needed, jobs):
-    """{(scene, texture): recording}"""
-    say = progress(len(needed))
-    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
-        pending, found = {pool.submit(record, *which): which for which in needed}, {}
-        for which, found[which] in as_they_end(pool, pending):
-            say(f"{' '.join(filter(None, which))} recorded")
-    return found
 
 
 def record(scene, texture):
@@ -107,12 +71,12 @@ def measure(number, run, recording, keep):
     knife = BOARD_TOOL if run.scene == BOARD else tool_of(run.scene)
     tool("replay", recording, "--object", config, "--output", result, "--timing", *knife,
          *(("--parameters", parameters) if run.text else ()))
-    report = json.loads(tool("evaluate", result, "--truth", recording, "--json"))
-    report |= {"recording": str(recording), "result": str(result), **read_by("counts.py", result)}
+    report = {**evaluate(result, "--truth", recording), "recording": str(recording), "result": str(result),
+              **counts(result)}
     if run.scene in CUT_THROUGH:
-        report["quality"] = read_by("cut_quality.py", result)
+        report["quality"] = cut_quality(result)
     if run.scene == TEAR:
-        report["times"] = read_by("tear_times.py", result, recording)
+        report["times"] = tear_times(result, recording)
     (FOLDER / f"{name}.json").write_text(json.dumps(report))
     if not keep:
         result.unlink()
@@ -122,12 +86,3 @@ def measure(number, run, recording, keep):
 def peer_runs():
     """{body: {simulator: error and time}}"""
     return json.loads(tool("compare_peers", package="development/softbody_sim"))
-
-
-def read_by(script, result, *more):
-    """What a script of this folder prints about a bag of `replay`."""
-    command = [DEVEL / "env.sh", "/usr/bin/python3", ROOT / "scripts/paper_parts" / script, result, *more]
-    answer = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
-    if answer.returncode != 0:
-        raise ToolFailed(f"{script} {result}\n{answer.stderr}")
-    return json.loads(answer.stdout)

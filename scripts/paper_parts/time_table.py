@@ -1,9 +1,8 @@
-"""Table 2 of docs/paper.md."""
-from evaluation.document import processor
-from evaluation.figures import PAPER_TIMES_MS, number
+"""The rows of Table 2 in docs/paper.md."""
+from evaluation.figures import PAPER_TIMES_MS
+from pages import number
 from paper_parts.methods import TIMED, timed_kinds
 from paper_parts.runs import Run
-from paper_parts.tables import section
 
 FIRST = " (initialization)"
 STAGES = ("Feature-Point Tracking", "Soft-body Simulation", "Resolution Enhancement")
@@ -41,17 +40,7 @@ def rows_of(reports, words, initialization, stages=STAGES):
 
 def times(reports):
     initial, per_frame = (totals(reports, initialization).values() for initialization in (True, False))
-    rows = [*rows_of(reports, "Init.", True), ["Init.", "Total", *map(number, initial)],
+    return [*rows_of(reports, "Init.", True), ["Init.", "Total", *map(number, initial)],
             *rows_of(reports, "Init.", True, ("Model Registration", "Tracker Preparation")),
             *rows_of(reports, "per frame", False), ["per frame", "Total", *map(number, per_frame)],
             ["", "frames a second", *(number(None if not total else 1000 / total, 0) for total in per_frame)]]
-    return section("Table 2: times", f"Median time of a frame [ms] of scenes bend and doll_bend, on {processor()}, no "
-                                     "GPU, with nothing else running. The paper: Intel Core i7-6700K with GeForce GTX "
-                                     "1080 Ti. \"Its method\" is config/paper.yaml with plain projective dynamics: no "
-                                     "depth between features, no outline, no prediction. \"Features alone\" is ours "
-                                     "without depth and outline. Init. of the simulation is building the simulator; "
-                                     "Init. of the features is their first frame. Two lines are not in the Total, "
-                                     "because the paper does not have them. Registration: the paper sets the rotation "
-                                     "by hand. Tracker Preparation happens before the first image; it is mostly "
-                                     "OpenCV's tables of colours.",
-                   ["", "stage", *(f"{body}, {whose}" for body, whose in COLUMNS)], rows)

@@ -1,6 +1,5 @@
 """A block on an incline."""
 import math
-import sys
 
 from validation.simulate_tool import box, simulate
 
@@ -18,7 +17,6 @@ def friction_rows():
     rows = []
     for solver in ("pd", "fem"):
         for friction in (0.2, 0.5, 1.0):
-            print(f"== friction {solver} {friction}", file=sys.stderr)
             low, high = 0.5 * friction, 1.5 * friction
             while high - low > 1e-3 * friction:
                 middle = 0.5 * (low + high)

@@ -1,6 +1,5 @@
 """Held specimens: beams, stretched and twisted bars and bars of two materials, with the settings of the node first."""
 import math
-import sys
 
 from validation.incompressible import DENSITY, GRAVITY, YOUNG, beam
 from validation.mixed_reference import deflection
@@ -21,7 +20,6 @@ def beam_rows():
         mesh, _ = box(f"beam_{n}", (10 * n // 3, n, n), beam)
         ratios = []
         for poisson, reference in expected.items():
-            print(f"== beam {name} {n} {poisson}", file=sys.stderr)
             move = simulate(mesh, "--young", YOUNG, "--density", DENSITY, "--poisson", poisson, "--gravity", 0, 0, -GRAVITY,
                             "--pin", "x<1e-9", "--probe", "x>0.0999999", *options)[-1]["probe_z_m"]
             ratios.append(f"{move / reference:.3f}")
@@ -35,7 +33,6 @@ def weight_rows():
     weight = 30.0 * 0.2 * 0.1 * 0.03 * 9.81
     rows = []
     for exponent in range(3, 12):
-        print(f"== weight 1e{exponent}", file=sys.stderr)
         carried = []
         for options in (NODE, ["--solver", "pd"], ["--solver", "fem"]):
             row = settle(mesh, "--young", 10.0**exponent, "--gravity", 0, 0, -9.81, "--pin", "x<1e-9", *options)
@@ -70,7 +67,6 @@ def specimen_rows():
     for name, mesh, options, which, expected in cases:
         ratios = []
         for solver in (NODE, REFERENCE):
-            print(f"== specimen {name} {solver[0]}", file=sys.stderr)
             ratios.append(f"{end_force(mesh, '--young', young, *options, *solver)[which] / expected:.4f}")
         rows.append((name, *ratios))
     return [*rows, sandwich_row()]

@@ -1,5 +1,4 @@
 """Beams and membranes at Poisson's ratios up to 0.495."""
-import sys
 
 from validation.mixed_reference import deflection, end_load
 from validation.simulate_tool import box, simulate
@@ -43,12 +42,10 @@ def incompressible_rows():
                   ("Cook's membrane", "thick_cook", 24, (24, 24, 6), membrane, membrane_move, 1))]
     exact = {}
     for poisson in RATIOS:
-        print(f"== reference at Poisson's ratio {poisson}", file=sys.stderr)
         exact[poisson] = references(poisson)
     rows = []
     for (name, n, mesh, move, which), solver in ((m, s) for m in meshes for s in ("fem", "pd")):
         for shares, (strain, volume) in SMOOTHINGS.items():
-            print(f"== {name} {n} {solver} {shares}", file=sys.stderr)
             options = ("--solver", solver, "--strain-smoothing", strain, "--volume-smoothing", volume)
             rows.append((name, n, solver, shares, *(f"{move(mesh, poisson, options) / exact[poisson][which]:.3f}"
                                                      for poisson in RATIOS)))

@@ -1,7 +1,6 @@
 """Free bodies in contact, with the settings of the node: slopes, pushes, drops and rolling."""
 import itertools
 import math
-import sys
 
 import numpy as np
 
@@ -36,7 +35,6 @@ def incline_rows():
     """Distance in a second where the block slides, and creep in a second where it sticks."""
     mesh, rows = block(), []
     for young, density in itertools.product((5e3, 1e5, 5e6), (30, 300, 1000)):
-        print(f"== incline {young:g} {density}", file=sys.stderr)
         ratios, creeps = [], []
         for friction, tilt in ((0.0, 0.2), (0.3, 0.6), (1.0, 1.5)):
             angle = math.atan(tilt)
@@ -54,7 +52,6 @@ def push_rows():
     mesh, rows = block(), []
     ratio = lambda force, weight: force / weight if weight else math.nan
     for young, density, friction in itertools.product((5e3, 1e5, 1e6), (30, 300), (0.3, 0.8)):
-        print(f"== push {young:g} {density} {friction}", file=sys.stderr)
         weight = density * SIZE.prod() * GRAVITY
         common = (*NODE, "--young", young, "--density", density, "--damping", 0, "--gravity", 0, 0, -GRAVITY, "--ground", 0,
                   "--friction", friction, "--steps", 2 * SECOND, "--probe", "all")
@@ -72,7 +69,6 @@ def drop_rows():
     """A block that falls 100 mm onto a table."""
     mesh, rows = block(), []
     for young, density in itertools.product((500.0, 5e3, 1e5, 1e6), (30, 300)):
-        print(f"== drop {young:g} {density}", file=sys.stderr)
         table = simulate(mesh, *NODE, "--young", young, "--density", density, "--gravity", 0, 0, -GRAVITY, "--ground", -0.1,
                          "--friction", 0.5, "--steps", 3 * SECOND)
         moving = [row["time_s"] for row in table if row["speed_m_s"] > 1e-3]
@@ -102,7 +98,6 @@ def roll_rows():
     rows = []
     for (name, shape, cells, inertia), tilt in itertools.product(
             (("ball", ball, (10, 10, 10), 0.4), ("cylinder", cylinder, (16, 1, 16), 0.5)), (0.1, 0.3)):
-        print(f"== roll {name} {tilt}", file=sys.stderr)
         mesh, rest = box(name, cells, shape)
         acceleration = GRAVITY * math.sin(math.atan(tilt)) / (1.0 + inertia)
         ratios = []

@@ -1,11 +1,9 @@
 """Convergence to known solutions as the mesh gets finer."""
 import math
-import sys
 
 import numpy as np
 
-from validation.simulate_tool import OUTPUT, SOLVERS, box, simulate
-from validation.vtu_tets import positions
+from validation.simulate_tool import OUTPUT, SOLVERS, box, positions, simulate
 
 
 # Each refinement study: cells across -> (tets, result / reference).
@@ -58,32 +56,23 @@ def twist(n, *solver):
     return 60 * n**3, (angle(0.7) - angle(0.3)) / 0.4 / (torque / (0.1406 * shear * side**4))
 
 
-STUDIES = {
-    "cantilever": (cantilever, (1, 2, 4, 8, 12),
-                   "tip of a beam of 1 x 0.1 x 0.1 m, nu = 0, small load. "
-                   "Reference: Euler-Bernoulli, F L^3 / (3 E I)"),
-    "Cook's membrane": (cook, (4, 8, 16, 32, 64),
-                        "middle of the free edge, 1 cell thick, nu = 1/3, small load. "
-                        "Reference: plane stress, 23.96 F / (E t)"),
-    "twist": (twist, (2, 4, 8, 12),
-              "rate of twist of a bar of 1 x 0.1 x 0.1 m, nu = 0.3. "
-              "Reference: Saint-Venant, T / (0.1406 G a^4)"),
-    "sag": (sag, (1, 2, 4), "lower end of a hanging column, nu = 0. Reference: rho g L^2 / (2 E)"),
-}
-
+STUDIES = {"cantilever": (cantilever, (1, 2, 4, 8, 12)), "Cook's membrane": (cook, (4, 8, 16, 32, 64)),
+           "twist": (twist, (2, 4, 8, 12)), "sag": (sag, (1, 2, 4))}
 SMOOTHED = [("cantilever", 1), ("cantilever", 2), ("cantilever", 4), ("Cook's membrane", 4), ("Cook's membrane", 8),
             ("Cook's membrane", 16), ("twist", 2), ("twist", 4)]
 
 
-def study_rows(name, function, sizes):
-    rows, previous = [], None
-    for n in sizes:
-        print(f"== {name} {n}", file=sys.stderr)
-        tets, ratio = function(n, *SOLVERS["FEM corotated"])
-        error = abs(ratio - 1.0)
-        order = math.log(previous[1] / error) / math.log(n / previous[0]) if previous and error > 1e-5 else None
-        rows.append((name, n, tets, ratio, order))
-        previous = (n, error)
+def refinement_rows():
+    """(problem, cells across, tets, result / reference, order of convergence of the error between two rows)."""
+    rows = []
+    for name, (function, sizes) in STUDIES.items():
+        previous = None
+        for n in sizes:
+            tets, ratio = function(n, *SOLVERS["FEM corotated"])
+            error = abs(ratio - 1.0)
+            order = math.log(previous[1] / error) / math.log(n / previous[0]) if previous and error > 1e-5 else None
+            rows.append((name, n, tets, f"{ratio:.4f}", "" if order is None else f"{order:.2f}"))
+            previous = (n, error)
     return rows
 
 
@@ -91,7 +80,6 @@ def smoothing_rows():
     """Coarse meshes by shares of smoothed strains."""
     rows = []
     for share in (0, 0.5, 0.6, 0.7, 0.8, 0.9):
-        print(f"== smoothing {share}", file=sys.stderr)
         solver = ("--solver", "pd", "--strain-smoothing", share, "--volume-smoothing", share)
         rows.append((share, *(f"{STUDIES[name][0](n, *solver)[1]:.3f}" for name, n in SMOOTHED)))
     return rows

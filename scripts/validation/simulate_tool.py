@@ -2,25 +2,24 @@
 import csv
 import io
 import itertools
-import pathlib
 import subprocess
 import sys
 
 import numpy as np
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
-WORKSPACE = ROOT / "catkin_ws/devel"
+from pages import ROOT
+from tools import DEVEL
+
 OUTPUT = ROOT / "validation"
 PLAIN = ["--strain-smoothing", "0", "--volume-smoothing", "0"]
 SOLVERS = {"PD": ["--solver", "pd", *PLAIN], "FEM corotated": ["--solver", "fem", *PLAIN],
            "FEM neo-Hookean": ["--solver", "fem", "--elasticity", "neo_hookean", *PLAIN]}
-
-
 NODE = ["--node-defaults"]
 
 
 def run_tool(mesh, *arguments):
-    command = [WORKSPACE / "env.sh", WORKSPACE / "lib/softbody_sim/simulate", mesh, *map(str, arguments)]
+    print(f"== {mesh.name} {' '.join(map(str, arguments))[:100]}", file=sys.stderr)
+    command = [DEVEL / "env.sh", DEVEL / "lib/softbody_sim/simulate", mesh, *map(str, arguments)]
     return command, subprocess.run(command, capture_output=True, text=True, check=False)
 
 
@@ -67,3 +66,25 @@ def box(name, cells, place):
     path.with_suffix(".ele").write_text(f"{len(tets)} 4 0\n" + "".join(
         f"{i} {' '.join(map(str, tet))}\n" for i, tet in enumerate(tets)))
     return path, vertices
+
+
+def column(vtu, mark, kind):
+    text = vtu.read_text()
+    return np.array(text[text.index(mark):].split(">", 1)[1].split("<", 1)[0].split(), dtype=kind)
+
+
+def positions(vtu):
+    """The vertices of a VTU that the tool has written."""
+    return column(vtu, 'NumberOfComponents="3"', float).reshape(-1, 3)
+
+
+def cells(vtu):
+    """The tets of a VTU that the tool has written."""
+    return column(vtu, 'Name="connectivity"', int).reshape(-1, 4)
+
+
+def second_moment(vertices, tets, axis):
+    """The integral of squared distance from the centroid along an axis, exactly, over tets."""
+    x, volumes = vertices[tets][:, :, axis], np.linalg.det(vertices[tets[:, 1:]] - vertices[tets[:, :1]]) / 6.0
+    x = x - (volumes @ x.mean(axis=1)) / volumes.sum()
+    return (volumes * ((x**2).sum(axis=1) + x.sum(axis=1)**2)).sum() / 20.0
