@@ -2,6 +2,7 @@
 import statistics
 
 from evaluation.figures import WRONG_MATCH_SEEDS, answered, get, of_kind, ratio, tracking_share, value_of, worst
+from evaluation.runs import object_of
 from pages import number, percent
 
 MEANS = [f"vertex_error.{part}.mean_mm" for part in ("all", "visible", "hidden")]
@@ -115,14 +116,13 @@ def faults(reports):
 
 def stage_times(reports):
     """Median over the scenes of a body of the stage's median time in a frame."""
-    times, bodies = {}, []
+    times = {}
     for name, report in of_kind(reports, "scene").items():
-        body = name.rsplit("_", 1)[0] if "_" in name else "sponge"
-        bodies += [body] if body not in bodies else []
         for stage in report.get("stages", []):
             words = stage["stage"] + (" (initialization)" if stage["initialization"] else "")
-            times.setdefault(words, {}).setdefault(body, []).append(stage["median_ms"])
-    return [[words, *(number(statistics.median(of_body[body]) if body in of_body else None) for body in bodies)]
+            times.setdefault(words, {}).setdefault(object_of(name).stem, []).append(stage["median_ms"])
+    return [[words, *(number(statistics.median(of_body[body]) if body in of_body else None)
+                      for body in ("sponge", "doll"))]
             for words, of_body in times.items()]
 
 
