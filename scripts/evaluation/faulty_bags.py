@@ -1,4 +1,4 @@
-"""Copies the camera's topics of a virtual recording with a fault. The recording has labels (virtual_camera --labels)."""
+"""Copies the camera's topics of a virtual recording, which has labels (virtual_camera --labels), with a fault."""
 import os
 import shutil
 

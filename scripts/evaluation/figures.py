@@ -21,6 +21,10 @@ MOVING = ("still", "bend", "push", "twist")
 WRONG_MATCH_SEEDS = {"bend": (1, 2, 3, 4), "push": (1, 2), "twist": (1, 2)}
 DEPTH_HOLES, FEW_FEATURES = "30 % depth holes", "at most 50 features instead of 1000"
 
+# Paths in a report.
+MEANS = ALL, VISIBLE, HIDDEN = [f"vertex_error.{part}.mean_mm" for part in ("all", "visible", "hidden")]
+P95 = "vertex_error.all.p95_mm"
+
 # Kang et al. 2022: section 6 (the mean error), Table 2 (times; "Init." is the initialization).
 PAPER_MEAN_ERROR_MM = 2.56
 PAPER_TIMES_MS = {

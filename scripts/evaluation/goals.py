@@ -1,14 +1,12 @@
 """The goals: (metric, goal with its unit, value). Reached: the value is at most, or with >= at least, the goal."""
 import math
 
-from evaluation.figures import (CLUTTERED, DEPTH_HOLES, FEW_FEATURES, MOVING, NOISE_FREE, PAPER_MEAN_ERROR_MM,
-                                WRONG_MATCH_SEEDS, frames_of, get, of_kind, percents, ratio, tracking_share, value_of,
-                                worst, worst_of, wrong_matches)
+from evaluation.figures import (ALL, CLUTTERED, DEPTH_HOLES, FEW_FEATURES, HIDDEN, MOVING, NOISE_FREE, P95,
+                                PAPER_MEAN_ERROR_MM, VISIBLE, WRONG_MATCH_SEEDS, frames_of, get, of_kind, percents,
+                                ratio, tracking_share, value_of, worst, worst_of, wrong_matches)
 from evaluation.world_goals import world_goals
 from pages import number
 
-ALL, VISIBLE, HIDDEN = (f"vertex_error.{part}.mean_mm" for part in ("all", "visible", "hidden"))
-P95 = "vertex_error.all.p95_mm"
 CUT_SURFACE = ("cut_surface.distance.max_mm", "cut_surface.missed.max_mm")
 
 

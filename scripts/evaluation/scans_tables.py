@@ -28,8 +28,9 @@ def missed(row, result):
     mean, most = KNOWN_MM if row.known_motion else FREE_MM
     volume = TURNED_OVER if len(row.recordings) > 1 else CLOSED_FLAT
     seconds = min(result["seconds"], result["cpu_seconds"])
-    checks = {"mean": seen(result)[0] <= mean, "99 %": seen(result)[1] <= most, "volume": volume_error(result) <= volume,
-              "time": seconds <= SECONDS * len(row.recordings), "memory": result["memory_gb"] <= MEMORY_GB}
+    checks = {"mean": seen(result)[0] <= mean, "99 %": seen(result)[1] <= most,
+              "volume": volume_error(result) <= volume, "time": seconds <= SECONDS * len(row.recordings),
+              "memory": result["memory_gb"] <= MEMORY_GB}
     return [name for name, reached in checks.items() if not reached]
 
 

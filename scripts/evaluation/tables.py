@@ -1,12 +1,10 @@
 """The rows of the tables in docs/evaluation.md, from the reports of `evaluate`."""
 import statistics
 
-from evaluation.figures import WRONG_MATCH_SEEDS, answered, get, of_kind, ratio, tracking_share, value_of, worst
+from evaluation.figures import (MEANS, P95, WRONG_MATCH_SEEDS, answered, get, of_kind, ratio, tracking_share, value_of,
+                                worst)
 from evaluation.runs import object_of
 from pages import number, percent
-
-MEANS = [f"vertex_error.{part}.mean_mm" for part in ("all", "visible", "hidden")]
-P95 = "vertex_error.all.p95_mm"
 
 
 def numbers(report, *paths):

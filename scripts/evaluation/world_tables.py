@@ -1,7 +1,7 @@
 """The rows of the tables in docs/evaluation.md on bodies of one colour, predicted errors and wrong objects."""
-from evaluation.figures import (FALSE_AFTER_S, OWN_COLOUR, PLAIN, TEXTURED, TEXTURES, calibration_bins,
+from evaluation.figures import (FALSE_AFTER_S, MEANS, OWN_COLOUR, PLAIN, TEXTURED, TEXTURES, calibration_bins,
                                 false_tracking, frames_of, get, of_kind)
-from evaluation.tables import MEANS, beside, numbers, tracked
+from evaluation.tables import beside, numbers, tracked
 from pages import ROOT, number, percent
 from plots import log_plot
 
