@@ -20,8 +20,8 @@ struct Pin {
 struct Surroundings {
   std::vector<Pin> pins;
   std::vector<Obstacle> obstacles;  ///< in the same order at every step
-  /// Obstacles came or went since the last step. Then none pushes what lies between its last pose and this
-  /// one.
+  /// Obstacles came or went since the last step. Then no obstacle pushes what lies between its last pose and
+  /// the present one.
   bool obstacles_changed = false;
   Points loads;  ///< #V by 3 forces [N], or empty
 };

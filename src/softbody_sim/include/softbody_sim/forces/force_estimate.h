@@ -33,8 +33,8 @@ struct ForceEstimate {
 ForceEstimate withWrenchIn(ForceEstimate estimate, const Eigen::Isometry3d& pose);
 
 /// The estimate in newtons, or in units of Young's modulus if its standard deviation is not known. A known
-/// one adds to the covariances: forces grow with the stiffness. @param estimate in newtons, for this
-/// material.
+/// standard deviation adds to the covariances, because forces grow with the stiffness. @param estimate in
+/// newtons, for this material.
 ForceEstimate inKnownUnit(ForceEstimate estimate, const Material& material);
 
 }  // namespace softbody

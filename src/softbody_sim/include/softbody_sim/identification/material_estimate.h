@@ -35,8 +35,8 @@ struct MaterialEstimate {
   std::vector<EstimatedProperty> properties;
   Eigen::MatrixXd correlation;        ///< of the properties, by their statistical errors
   double modulus_over_density = 0.0;  ///< [m^2/s^2], if gravity shows it; else 0
-  /// Young's modulus that the same measurements give with each tet split into eight, and its standard error:
-  /// nearer to that of the material. 0: not observable.
+  /// Young's modulus with each tet split into eight, and its standard error. It is nearer to that of the
+  /// material. 0: not observable.
   double refined_modulus_pa = 0.0, refined_std_pa = 0.0;
   Eigen::Isometry3d alignment = Eigen::Isometry3d::Identity();  ///< of the simulated body to the targets
   std::vector<ObservationFit> observations;
