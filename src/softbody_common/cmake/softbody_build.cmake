@@ -45,6 +45,19 @@ function(softbody_unite_folders target)
   endif()
 endfunction()
 
+# softbody_sources(TARGET FOLDER...): adds all sources of these folders of the package, without their subfolders and
+# without what nodes have as main programs (NAME_main.cpp).
+function(softbody_sources target)
+  foreach(folder IN LISTS ARGN)
+    file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*.cpp)
+    list(FILTER sources EXCLUDE REGEX "_main\\.cpp$")
+    if(NOT sources)
+      message(FATAL_ERROR "${target}: no sources in ${PROJECT_SOURCE_DIR}/${folder}")
+    endif()
+    target_sources(${target} PRIVATE ${sources})
+  endforeach()
+endfunction()
+
 # softbody_unite_folders for a target that gets its sources later.
 function(softbody_unite_folders_later target)
   cmake_language(EVAL CODE "cmake_language(DEFER DIRECTORY [[${PROJECT_SOURCE_DIR}]] CALL softbody_unite_folders ${target})")
@@ -59,7 +72,7 @@ function(softbody_precompile_headers target)
 endfunction()
 
 # softbody_core_library(TARGET NAME [LIBRARY]): a library without ROS, which other packages link as softbody::NAME.
-# Its folders add their sources with target_sources. It reuses the precompiled headers of LIBRARY, which has the same
+# softbody_sources gives it its sources. It reuses the precompiled headers of LIBRARY, which has the same
 # compile options and no other macros.
 function(softbody_core_library target name)
   add_library(${target})
@@ -119,7 +132,7 @@ function(softbody_tell_version program)
   set(source ${CMAKE_CURRENT_BINARY_DIR}/package_version.cpp)
   set(version ${${PROJECT_NAME}_VERSION})
   file(CONFIGURE OUTPUT ${source} @ONLY CONTENT [[
-#include "softbody_common/package_version.h"
+#include "softbody_common/tools/package_version.h"
 static const bool told = softbody::setPackageVersion("@PROJECT_NAME@ @version@");
 ]])
   target_sources(${program} PRIVATE ${source})
@@ -169,13 +182,32 @@ function(softbody_test_headers target)
   target_precompile_headers(${target} REUSE_FROM ${headers})
 endfunction()
 
-# softbody_gtest(NAME SOURCE...): one test program of a folder, linked to ${test_libraries}.
+# softbody_gtest(NAME PLACE...): one test program from source files, and from all sources of folders, linked to
+# ${test_libraries}.
 function(softbody_gtest name)
-  catkin_add_gtest(${name} ${ARGN})
+  set(sources "")
+  foreach(place IN LISTS ARGN)
+    if(IS_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/${place})
+      file(GLOB place CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${place}/*.cpp)
+    endif()
+    list(APPEND sources ${place})
+  endforeach()
+  catkin_add_gtest(${name} ${sources})
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/test ${PROJECT_SOURCE_DIR}/src
     ${PROJECT_SOURCE_DIR}/src/core)
   target_compile_definitions(${name} PRIVATE ${test_definitions})
   target_link_libraries(${name} ${test_libraries} gtest_main)
   softbody_test_headers(${name})
   softbody_unite_folders(${name})
+endfunction()
+
+# softbody_rostests(FOLDER [NAME...]): all rostests of a folder, without the named ones, which want more than their file.
+function(softbody_rostests folder)
+  file(GLOB tests CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*.test)
+  foreach(test IN LISTS tests)
+    get_filename_component(name ${test} NAME_WE)
+    if(NOT name IN_LIST ARGN)
+      add_rostest(${test})
+    endif()
+  endforeach()
 endfunction()

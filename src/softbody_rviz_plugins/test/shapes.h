@@ -1,7 +1,7 @@
 #pragma once
 
-#include "softbody_common/tet_geometry.h"
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/tet_geometry.h"
+#include "softbody_common/geometry/types.h"
 
 namespace softbody {
 

@@ -4,8 +4,8 @@
 #include <random>
 
 #include "bench/bent_bodies.h"
-#include "softbody_common/tet_geometry.h"
-#include "softbody_common/tet_locator.h"
+#include "softbody_common/geometry/tet_geometry.h"
+#include "softbody_common/geometry/tet_locator.h"
 
 namespace softbody::bench {
 namespace {

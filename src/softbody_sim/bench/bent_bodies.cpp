@@ -5,7 +5,7 @@
 #include <random>
 
 #include "fixtures/test_meshes.h"
-#include "softbody_common/tet_geometry.h"
+#include "softbody_common/geometry/tet_geometry.h"
 #include "softbody_sim/object/object_model.h"
 
 namespace softbody::bench {

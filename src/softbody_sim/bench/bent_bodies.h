@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "elasticity/corotated_elasticity.h"
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/types.h"
 #include "tets/tet_matrix.h"
 #include "time_step/incremental_potential.h"
 

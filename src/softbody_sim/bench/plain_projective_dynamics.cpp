@@ -3,7 +3,7 @@
 #include <Eigen/LU>
 #include <Eigen/SVD>
 
-#include "softbody_common/tet_geometry.h"
+#include "softbody_common/geometry/tet_geometry.h"
 #include "tets/tet_shape.h"
 
 namespace softbody::bench {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "elasticity/corotated_elasticity.h"
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/types.h"
 #include "time_step/incremental_potential.h"
 
 namespace softbody::bench {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "nodelet_loader/nodelet_loader.h"
-#include "softbody_common/package_version.h"
 #include "softbody_common/ros/run_node.h"
+#include "softbody_common/tools/package_version.h"
 
 int main(int argc, char** argv) {
   std::vector<std::string> arguments;

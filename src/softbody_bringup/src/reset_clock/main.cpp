@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <string>
 
-#include "softbody_common/package_version.h"
+#include "softbody_common/tools/package_version.h"
 
 /// Waits until roslaunch ends it. Then it sets use_sim_time to false, because roslaunch leaves it true on a
 /// master that stays, and nodes that start there later would wait for /clock.

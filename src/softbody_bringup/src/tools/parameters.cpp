@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "softbody_common/run_tool.h"
+#include "softbody_common/tools/run_tool.h"
 #include "softbody_recordings/injection/injector_options.h"
 #include "softbody_scanning/ros/scanner_options.h"
 #include "softbody_sim/ros/simulator_options.h"

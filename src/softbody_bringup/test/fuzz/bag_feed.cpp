@@ -6,7 +6,7 @@
 #include "fuzz/byte_source.h"
 #include "fuzz/feeds.h"
 #include "fuzz/scratch_files.h"
-#include "softbody_common/camera_topics.h"
+#include "softbody_common/protocol/camera_topics.h"
 #include "softbody_recordings/ros/bag_frames.h"
 #include "softbody_recordings/ros/facts_reader.h"
 #include "softbody_recordings/ros/input_bag.h"

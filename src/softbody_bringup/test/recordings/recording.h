@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "softbody_common/camera_topics.h"
+#include "softbody_common/protocol/camera_topics.h"
 
 namespace softbody::recordings {
 

@@ -10,7 +10,7 @@
 #include <map>
 #include <opencv2/imgproc.hpp>
 
-#include "softbody_common/tet_geometry.h"
+#include "softbody_common/geometry/tet_geometry.h"
 #include "softbody_evaluation/ros/surface_reader.h"
 #include "softbody_recordings/pipeline/pipeline.h"
 #include "softbody_recordings/ros/replay.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "softbody_common/plausibility.h"
+#include "softbody_common/geometry/plausibility.h"
 
 namespace softbody {
 namespace {

@@ -6,8 +6,8 @@
 #include <limits>
 #include <stdexcept>
 
-#include "softbody_common/plausibility.h"
-#include "softbody_common/tet_topology_check.h"
+#include "softbody_common/geometry/plausibility.h"
+#include "softbody_common/geometry/tet_topology_check.h"
 
 namespace softbody {
 namespace {

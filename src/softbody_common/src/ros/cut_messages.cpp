@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "softbody_common/geometry/tet_topology_check.h"
 #include "softbody_common/ros/conversions.h"
-#include "softbody_common/tet_topology_check.h"
 
 namespace softbody {
 namespace {

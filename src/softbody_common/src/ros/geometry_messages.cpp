@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "softbody_common/blade.h"
-#include "softbody_common/plausibility.h"
+#include "softbody_common/cutting/blade.h"
+#include "softbody_common/geometry/plausibility.h"
 
 namespace softbody {
 namespace {

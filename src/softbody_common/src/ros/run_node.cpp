@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "softbody_common/package_version.h"
+#include "softbody_common/tools/package_version.h"
 
 namespace softbody {
 namespace {

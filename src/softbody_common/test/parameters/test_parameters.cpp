@@ -5,7 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "softbody_common/parameters.h"
+#include "softbody_common/parameters/parameters.h"
 
 namespace softbody {
 namespace {

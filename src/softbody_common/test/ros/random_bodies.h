@@ -5,8 +5,8 @@
 #include <random>
 
 #include "random_meshes.h"
-#include "softbody_common/edit_history.h"
-#include "softbody_common/tet_geometry.h"
+#include "softbody_common/cutting/edit_history.h"
+#include "softbody_common/geometry/tet_geometry.h"
 
 namespace softbody {
 

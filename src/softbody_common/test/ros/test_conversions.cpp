@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "ros/random_bodies.h"
+#include "softbody_common/geometry/tet_topology_check.h"
 #include "softbody_common/ros/camera_messages.h"
 #include "softbody_common/ros/conversions.h"
 #include "softbody_common/ros/cut_messages.h"
-#include "softbody_common/tet_topology_check.h"
 
 namespace softbody {
 namespace {

@@ -1,4 +1,4 @@
-#include "softbody_evaluation/ros/force_reader.h"
+#include "ros/force_reader.h"
 
 #include <fmt/format.h>
 #include <rosbag/view.h>

@@ -1,4 +1,4 @@
-#include "softbody_evaluation/ros/frame_change.h"
+#include "ros/frame_change.h"
 
 #include <fmt/format.h>
 #include <tf2/exceptions.h>

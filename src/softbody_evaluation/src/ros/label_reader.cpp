@@ -1,4 +1,4 @@
-#include "softbody_evaluation/ros/label_reader.h"
+#include "ros/label_reader.h"
 
 #include <cv_bridge/cv_bridge.h>
 #include <fmt/format.h>

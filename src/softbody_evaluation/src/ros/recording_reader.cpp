@@ -1,4 +1,4 @@
-#include "softbody_evaluation/ros/recording_reader.h"
+#include "ros/recording_reader.h"
 
 #include <fmt/format.h>
 

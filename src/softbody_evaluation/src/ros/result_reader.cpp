@@ -1,4 +1,4 @@
-#include "softbody_evaluation/ros/result_reader.h"
+#include "ros/result_reader.h"
 
 #include <fmt/format.h>
 #include <geometry_msgs/PolygonStamped.h>
@@ -9,8 +9,8 @@
 #include <softbody_msgs/StageTiming.h>
 #include <softbody_msgs/TrackingStatus.h>
 
+#include "softbody_common/protocol/tracking_state.h"
 #include "softbody_common/ros/conversions.h"
-#include "softbody_common/tracking_state.h"
 #include "softbody_recordings/ros/input_bag.h"
 
 namespace softbody::evaluation {

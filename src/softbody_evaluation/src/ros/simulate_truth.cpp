@@ -5,9 +5,9 @@
 
 #include <stdexcept>
 
-#include "softbody_common/rigid_fit.h"
+#include "softbody_common/geometry/rigid_fit.h"
+#include "softbody_common/protocol/topics.h"
 #include "softbody_common/ros/conversions.h"
-#include "softbody_common/topics.h"
 #include "softbody_evaluation/measures/vertex_match.h"
 #include "softbody_evaluation/ros/surface_reader.h"
 #include "softbody_recordings/ros/atomic_bag.h"

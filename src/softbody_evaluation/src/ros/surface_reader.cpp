@@ -9,7 +9,7 @@
 
 #include "ros/typed_topic.h"
 #include "softbody_common/ros/conversions.h"
-#include "softbody_common/timeline.h"
+#include "softbody_common/time/timeline.h"
 #include "softbody_recordings/ros/input_bag.h"
 
 namespace softbody::evaluation {

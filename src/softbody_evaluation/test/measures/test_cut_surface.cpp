@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "softbody_common/tet_geometry.h"
+#include "softbody_common/geometry/tet_geometry.h"
 #include "softbody_evaluation/measures/cut_surface.h"
 #include "softbody_evaluation/measures/vertex_match.h"
 #include "softbody_evaluation/measures/volume.h"

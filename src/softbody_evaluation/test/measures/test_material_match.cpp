@@ -1,4 +1,4 @@
-#include "softbody_evaluation/measures/material_match.h"
+#include "measures/material_match.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <set>
 
 #include "fixtures/grid_bodies.h"
-#include "softbody_common/rigid_fit.h"
+#include "softbody_common/geometry/rigid_fit.h"
 #include "softbody_evaluation/measures/vertex_error.h"
 
 namespace softbody::evaluation {

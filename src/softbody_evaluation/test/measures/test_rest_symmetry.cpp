@@ -1,4 +1,4 @@
-#include "softbody_evaluation/measures/rest_symmetry.h"
+#include "measures/rest_symmetry.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <random>
 
 #include "fixtures/grid_bodies.h"
-#include "softbody_common/rigid_fit.h"
+#include "softbody_common/geometry/rigid_fit.h"
 
 namespace softbody::evaluation {
 namespace {

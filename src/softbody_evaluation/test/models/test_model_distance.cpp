@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 #include "fixtures/round_bodies.h"
-#include "softbody_evaluation/report/model_report.h"
+#include "report/model_report.h"
 
 namespace softbody::evaluation {
 namespace {

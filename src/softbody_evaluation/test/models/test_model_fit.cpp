@@ -5,7 +5,7 @@
 #include <random>
 
 #include "fixtures/round_bodies.h"
-#include "softbody_common/rigid_fit.h"
+#include "softbody_common/geometry/rigid_fit.h"
 
 namespace softbody::evaluation {
 namespace {

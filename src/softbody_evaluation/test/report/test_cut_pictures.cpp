@@ -1,4 +1,4 @@
-#include "softbody_evaluation/report/cut_pictures.h"
+#include "report/cut_pictures.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "softbody_evaluation/report/report_folder.h"
+#include "report/report_folder.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "softbody_evaluation/report/html_page.h"
+#include "report/html_page.h"
 
 namespace softbody::evaluation {
 namespace {

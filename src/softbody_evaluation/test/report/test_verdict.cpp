@@ -1,4 +1,4 @@
-#include "softbody_evaluation/report/verdict.h"
+#include "report/verdict.h"
 
 #include <gtest/gtest.h>
 

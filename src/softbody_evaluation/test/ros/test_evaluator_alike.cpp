@@ -5,11 +5,11 @@
 #include <nlohmann/json.hpp>
 
 #include "fixtures/evaluator_bags.h"
-#include "softbody_common/rigid_fit.h"
+#include "report/report_json.h"
+#include "report/verdict.h"
+#include "softbody_common/geometry/rigid_fit.h"
+#include "softbody_common/protocol/tracking_state.h"
 #include "softbody_common/ros/conversions.h"
-#include "softbody_common/tracking_state.h"
-#include "softbody_evaluation/report/report_json.h"
-#include "softbody_evaluation/report/verdict.h"
 
 namespace softbody::evaluation {
 namespace {

@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "fixtures/evaluator_bags.h"
-#include "softbody_evaluation/report/report_json.h"
-#include "softbody_evaluation/report/report_text.h"
+#include "report/report_json.h"
+#include "report/report_text.h"
 
 namespace softbody::evaluation {
 namespace {

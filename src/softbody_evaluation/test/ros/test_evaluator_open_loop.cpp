@@ -1,6 +1,6 @@
 #include "fixtures/evaluator_bags.h"
-#include "softbody_evaluation/report/figures.h"
-#include "softbody_evaluation/report/report_text.h"
+#include "report/figures.h"
+#include "report/report_text.h"
 
 namespace softbody::evaluation {
 namespace {

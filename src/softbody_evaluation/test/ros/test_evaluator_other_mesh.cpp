@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "fixtures/evaluator_bags.h"
-#include "softbody_common/rigid_fit.h"
+#include "report/report_json.h"
+#include "softbody_common/geometry/rigid_fit.h"
 #include "softbody_common/ros/conversions.h"
-#include "softbody_evaluation/report/report_json.h"
 
 namespace softbody::evaluation {
 namespace {

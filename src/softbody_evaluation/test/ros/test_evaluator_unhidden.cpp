@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "fixtures/evaluator_bags.h"
-#include "softbody_evaluation/report/report_text.h"
+#include "report/report_text.h"
 
 namespace softbody::evaluation {
 namespace {

@@ -4,7 +4,7 @@
 #include <rosbag/bag.h>
 #include <tf2_msgs/TFMessage.h>
 
-#include "softbody_evaluation/ros/frame_change.h"
+#include "ros/frame_change.h"
 
 namespace softbody::evaluation {
 namespace {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "nodes/live_stream.h"
+#include "softbody_common/protocol/topics.h"
 #include "softbody_common/ros/ros_parameters.h"
-#include "softbody_common/topics.h"
 #include "softbody_recordings/injection/injector_options.h"
 
 namespace softbody::injection {

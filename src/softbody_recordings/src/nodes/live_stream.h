@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "ros/injection/faulty_images.h"
-#include "softbody_common/timeline.h"
+#include "softbody_common/time/timeline.h"
 #include "softbody_recordings/injection/deliveries.h"
 
 namespace softbody::injection {

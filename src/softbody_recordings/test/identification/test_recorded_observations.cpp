@@ -5,7 +5,7 @@
 #include "identification/mean_wrench.h"
 #include "identification/recorded_observations.h"
 #include "identification/rigid_pins.h"
-#include "softbody_common/rigid_fit.h"
+#include "softbody_common/geometry/rigid_fit.h"
 
 namespace softbody {
 namespace {

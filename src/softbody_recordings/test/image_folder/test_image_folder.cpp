@@ -10,10 +10,10 @@
 #include <set>
 #include <sstream>
 
+#include "ros/bags/camera_bag.h"
 #include "softbody_common/ros/camera_messages.h"
 #include "softbody_common/ros/conversions.h"
 #include "softbody_recordings/image_folder/image_folder.h"
-#include "softbody_recordings/ros/camera_bag.h"
 
 namespace fs = std::filesystem;
 

@@ -14,7 +14,7 @@
 #include <random>
 #include <set>
 
-#include "softbody_recordings/ros/injector.h"
+#include "ros/injection/injector.h"
 
 namespace softbody::injection {
 namespace {

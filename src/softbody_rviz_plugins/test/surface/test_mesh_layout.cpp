@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "shapes.h"
-#include "softbody_common/rigid_fit.h"
+#include "softbody_common/geometry/rigid_fit.h"
 #include "surface/mesh_layout.h"
 
 namespace softbody {

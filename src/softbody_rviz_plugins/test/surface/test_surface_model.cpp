@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "shapes.h"
-#include "softbody_common/rigid_fit.h"
+#include "softbody_common/geometry/rigid_fit.h"
 #include "surface/surface_model.h"
 
 namespace softbody {

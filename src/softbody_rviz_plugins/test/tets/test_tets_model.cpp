@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "shapes.h"
-#include "softbody_common/rigid_fit.h"
+#include "softbody_common/geometry/rigid_fit.h"
 #include "tets/tets_model.h"
 
 namespace softbody {

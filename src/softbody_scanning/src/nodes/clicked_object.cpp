@@ -4,7 +4,7 @@
 
 #include <stdexcept>
 
-#include "softbody_common/plausibility.h"
+#include "softbody_common/geometry/plausibility.h"
 #include "softbody_common/ros/frame_name.h"
 #include "softbody_common/ros/geometry_messages.h"
 

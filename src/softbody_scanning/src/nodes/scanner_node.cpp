@@ -7,11 +7,11 @@
 #include <algorithm>
 #include <sstream>
 
+#include "scan/preview.h"
+#include "softbody_common/protocol/topics.h"
 #include "softbody_common/ros/conversions.h"
 #include "softbody_common/ros/ros_parameters.h"
-#include "softbody_common/topics.h"
 #include "softbody_scanning/output/scanned_model.h"
-#include "softbody_scanning/scan/preview.h"
 #include "softbody_tracking/ros/conversions.h"
 
 namespace softbody::scanning {

@@ -12,9 +12,9 @@
 #include <optional>
 #include <string>
 
+#include "key_frames/key_frame_choice.h"
+#include "motion/sheet_motion.h"
 #include "nodes/clicked_object.h"
-#include "softbody_scanning/key_frames/key_frame_choice.h"
-#include "softbody_scanning/motion/sheet_motion.h"
 #include "softbody_scanning/ros/scanner_options.h"
 #include "softbody_scanning/scan/scanned_body.h"
 

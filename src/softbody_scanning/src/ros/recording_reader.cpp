@@ -7,14 +7,14 @@
 #include <memory>
 #include <stdexcept>
 
+#include "key_frames/key_frame_choice.h"
+#include "markerless/markerless_motion.h"
+#include "motion/sheet_depth.h"
+#include "motion/sheet_motion.h"
+#include "ros/transform_motion.h"
 #include "softbody_common/ros/time.h"
 #include "softbody_recordings/ros/bag_frames.h"
 #include "softbody_recordings/ros/input_bag.h"
-#include "softbody_scanning/key_frames/key_frame_choice.h"
-#include "softbody_scanning/markerless/markerless_motion.h"
-#include "softbody_scanning/motion/sheet_depth.h"
-#include "softbody_scanning/motion/sheet_motion.h"
-#include "softbody_scanning/ros/transform_motion.h"
 
 namespace softbody::scanning {
 namespace {

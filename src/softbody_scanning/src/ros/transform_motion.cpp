@@ -1,4 +1,4 @@
-#include "softbody_scanning/ros/transform_motion.h"
+#include "ros/transform_motion.h"
 
 #include <tf2/exceptions.h>
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "softbody_common/rigid_fit.h"
+#include "softbody_common/geometry/rigid_fit.h"
 #include "softbody_common/statistics/random.h"
 #include "softbody_scanning/registration/surface_registration.h"
 #include "softbody_scanning/surface/remeshing.h"

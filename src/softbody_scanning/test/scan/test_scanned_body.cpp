@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "fixtures/seen_scene.h"
-#include "softbody_common/rigid_fit.h"
-#include "softbody_common/tet_geometry.h"
+#include "softbody_common/geometry/rigid_fit.h"
+#include "softbody_common/geometry/tet_geometry.h"
 #include "softbody_scanning/scan/checked_scan.h"
 
 namespace softbody::scanning {

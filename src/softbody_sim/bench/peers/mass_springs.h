@@ -3,7 +3,7 @@
 #include <Eigen/SparseCholesky>
 #include <vector>
 
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/types.h"
 #include "softbody_sim/object/material.h"
 
 namespace softbody::bench {

@@ -9,7 +9,7 @@
 
 #include "nodes/own_thread.h"
 #include "softbody_common/files/input_file.h"
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/types.h"
 
 namespace softbody {
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <utility>
 
+#include "softbody_common/geometry/tet_geometry.h"
 #include "softbody_common/ros/conversions.h"
-#include "softbody_common/tet_geometry.h"
 #include "softbody_sim/constraints/obstacle_description.h"
 
 namespace softbody {

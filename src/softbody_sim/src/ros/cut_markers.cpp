@@ -1,9 +1,9 @@
-#include "softbody_sim/ros/cut_markers.h"
+#include "ros/cut_markers.h"
 
 #include <array>
 
+#include "softbody_common/geometry/tet_geometry.h"
 #include "softbody_common/ros/conversions.h"
-#include "softbody_common/tet_geometry.h"
 #include "softbody_sim/ros/conversions.h"
 
 namespace softbody {

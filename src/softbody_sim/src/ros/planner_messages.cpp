@@ -1,11 +1,11 @@
-#include "softbody_sim/ros/planner_messages.h"
+#include "ros/planner_messages.h"
 
 #include <sensor_msgs/point_cloud2_iterator.h>
 
 #include <limits>
 
+#include "softbody_common/geometry/tet_geometry.h"
 #include "softbody_common/ros/conversions.h"
-#include "softbody_common/tet_geometry.h"
 
 namespace softbody {
 

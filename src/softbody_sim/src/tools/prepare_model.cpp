@@ -6,7 +6,7 @@
 #include <iostream>
 
 #include "cage/fill_request.h"
-#include "softbody_common/run_tool.h"
+#include "softbody_common/tools/run_tool.h"
 #include "softbody_sim/report/model_folder.h"
 #include "tools/surface_filling.h"
 

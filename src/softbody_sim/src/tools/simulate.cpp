@@ -7,8 +7,8 @@
 #include <random>
 
 #include "softbody_common/files/staged_output.h"
-#include "softbody_common/run_tool.h"
-#include "softbody_common/tet_geometry.h"
+#include "softbody_common/geometry/tet_geometry.h"
+#include "softbody_common/tools/run_tool.h"
 #include "softbody_sim/dynamics/simulator.h"
 #include "softbody_sim/io/tet_files.h"
 #include "softbody_sim/object/object_description.h"

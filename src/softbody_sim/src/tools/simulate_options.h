@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/types.h"
 #include "softbody_sim/dynamics/simulator_config.h"
 #include "softbody_sim/object/material.h"
 #include "tools/held_regions.h"

@@ -14,7 +14,7 @@
 #include <string>
 
 #include "cage/fill_request.h"
-#include "softbody_common/tet_geometry.h"
+#include "softbody_common/geometry/tet_geometry.h"
 
 namespace softbody {
 namespace {

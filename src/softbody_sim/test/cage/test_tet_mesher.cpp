@@ -7,7 +7,7 @@
 #include "cage/program_run.h"
 #include "cage/tet_mesher.h"
 #include "fixtures/model_files.h"
-#include "softbody_common/tet_geometry.h"
+#include "softbody_common/geometry/tet_geometry.h"
 
 namespace softbody {
 namespace {

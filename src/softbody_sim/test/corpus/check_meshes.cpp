@@ -6,7 +6,7 @@
 
 #include "corpus/mesh_checks.h"
 #include "corpus/model_corpus.h"
-#include "softbody_common/tet_geometry.h"
+#include "softbody_common/geometry/tet_geometry.h"
 #include "softbody_sim/io/surface_files.h"
 
 namespace {

@@ -8,7 +8,7 @@
 #include <random>
 
 #include "report/model_trial.h"
-#include "softbody_common/tet_geometry.h"
+#include "softbody_common/geometry/tet_geometry.h"
 #include "softbody_sim/cutting/binding/cuttable_surface.h"
 #include "softbody_sim/cutting/patch/cut_shapes.h"
 #include "softbody_sim/io/surface_files.h"

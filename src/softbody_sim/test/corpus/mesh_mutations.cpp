@@ -86,7 +86,7 @@ class Mutator {
     mesh.triangles.conservativeResize(sound.triangles.rows() + few(), 3);
     for (int k = 0; k < few(); ++k) {
       Eigen::RowVector3i copy = sound.triangles.row(anyFace());
-      if (k % 2 == 0) copy.reverseInPlace();
+      if (k % 2 == 0) std::swap(copy[0], copy[2]);
       mesh.triangles.row(sound.triangles.rows() + k) = copy;
     }
     add("doubled faces", mesh);

@@ -9,7 +9,7 @@
 
 #include "cage/enclosure.h"
 #include "shells/shell_nesting.h"
-#include "softbody_common/tet_geometry.h"
+#include "softbody_common/geometry/tet_geometry.h"
 #include "softbody_sim/io/surface_files.h"
 #include "softbody_sim/io/tet_files.h"
 #include "surface_mesh/surface_repair.h"

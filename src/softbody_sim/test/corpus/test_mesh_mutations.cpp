@@ -2,7 +2,7 @@
 
 #include "corpus/mesh_checks.h"
 #include "fixtures/model_files.h"
-#include "softbody_common/tet_geometry.h"
+#include "softbody_common/geometry/tet_geometry.h"
 
 namespace softbody {
 namespace {

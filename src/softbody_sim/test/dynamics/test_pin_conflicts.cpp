@@ -6,9 +6,9 @@
 #include <string>
 
 #include "cage/volume_maker.h"
+#include "constraints/pin_conflict.h"
 #include "fixtures/model_files.h"
 #include "fixtures/test_meshes.h"
-#include "softbody_sim/constraints/pin_conflict.h"
 #include "softbody_sim/dynamics/simulator.h"
 #include "softbody_sim/io/surface_files.h"
 

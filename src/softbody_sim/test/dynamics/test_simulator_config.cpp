@@ -2,7 +2,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include "fixtures/test_meshes.h"
-#include "softbody_common/target_limits.h"
+#include "softbody_common/protocol/target_limits.h"
 #include "softbody_sim/dynamics/simulator.h"
 
 namespace softbody {

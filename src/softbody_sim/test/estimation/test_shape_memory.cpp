@@ -7,7 +7,7 @@
 #include <random>
 
 #include "fixtures/test_meshes.h"
-#include "softbody_common/tet_geometry.h"
+#include "softbody_common/geometry/tet_geometry.h"
 
 namespace softbody {
 namespace {

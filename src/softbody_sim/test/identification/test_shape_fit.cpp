@@ -4,7 +4,7 @@
 
 #include "fixtures/model_files.h"
 #include "identification/sagging_beam.h"
-#include "softbody_common/tet_locator.h"
+#include "softbody_common/geometry/tet_locator.h"
 #include "softbody_sim/identification/fit_picture.h"
 #include "softbody_sim/identification/shape_fit.h"
 

@@ -4,8 +4,8 @@
 #include <random>
 
 #include "fixtures/test_meshes.h"
-#include "softbody_common/tet_geometry.h"
-#include "softbody_common/tet_locator.h"
+#include "softbody_common/geometry/tet_geometry.h"
+#include "softbody_common/geometry/tet_locator.h"
 #include "softbody_sim/interpolation/tet_binding.h"
 
 namespace softbody {

@@ -4,7 +4,7 @@
 #include <cstring>
 
 #include "fixtures/model_files.h"
-#include "softbody_common/tet_geometry.h"
+#include "softbody_common/geometry/tet_geometry.h"
 #include "softbody_sim/io/surface_files.h"
 
 namespace softbody {

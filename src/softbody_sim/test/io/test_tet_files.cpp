@@ -5,7 +5,7 @@
 
 #include "fixtures/model_files.h"
 #include "fixtures/test_meshes.h"
-#include "softbody_common/tet_geometry.h"
+#include "softbody_common/geometry/tet_geometry.h"
 #include "softbody_sim/io/surface_files.h"
 #include "softbody_sim/io/tet_files.h"
 

@@ -7,7 +7,7 @@
 #include "cage/enclosure.h"
 #include "fixtures/object_model_test.h"
 #include "fixtures/test_meshes.h"
-#include "softbody_common/tet_geometry.h"
+#include "softbody_common/geometry/tet_geometry.h"
 #include "softbody_sim/io/surface_files.h"
 #include "softbody_sim/io/tet_files.h"
 #include "softbody_sim/object/object_model.h"

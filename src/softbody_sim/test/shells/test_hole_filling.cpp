@@ -4,7 +4,7 @@
 
 #include "fixtures/model_files.h"
 #include "shells/hole_filling.h"
-#include "softbody_common/tet_geometry.h"
+#include "softbody_common/geometry/tet_geometry.h"
 
 namespace softbody {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "fixtures/test_meshes.h"
 #include "softbody_sim/surface_mesh/closest_point.h"
-#include "softbody_sim/surface_mesh/closest_surface_point.h"
+#include "surface_mesh/closest_surface_point.h"
 
 namespace softbody {
 namespace {

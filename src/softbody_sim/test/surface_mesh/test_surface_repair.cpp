@@ -4,7 +4,7 @@
 #include <random>
 
 #include "fixtures/model_files.h"
-#include "softbody_common/tet_geometry.h"
+#include "softbody_common/geometry/tet_geometry.h"
 #include "softbody_sim/object/object_description.h"
 #include "softbody_sim/object/visual_mesh.h"
 #include "surface_mesh/surface_repair.h"

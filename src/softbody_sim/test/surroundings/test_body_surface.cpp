@@ -5,8 +5,8 @@
 #include <stdexcept>
 
 #include "fixtures/test_meshes.h"
-#include "softbody_common/tet_geometry.h"
-#include "softbody_common/tet_locator.h"
+#include "softbody_common/geometry/tet_geometry.h"
+#include "softbody_common/geometry/tet_locator.h"
 #include "softbody_sim/dynamics/simulator.h"
 #include "softbody_sim/surroundings/surroundings_follower.h"
 

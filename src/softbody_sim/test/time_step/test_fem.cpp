@@ -7,7 +7,7 @@
 #include "elasticity/corotated_elasticity.h"
 #include "fem/fem_elasticity.h"
 #include "fixtures/test_meshes.h"
-#include "softbody_common/tet_geometry.h"
+#include "softbody_common/geometry/tet_geometry.h"
 #include "time_step/fem_solver.h"
 
 namespace softbody {

@@ -3,8 +3,8 @@
 #include <Eigen/Geometry>
 #include <opencv2/core.hpp>
 
-#include "softbody_common/pinhole.h"
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/pinhole.h"
+#include "softbody_common/geometry/types.h"
 
 namespace softbody {
 

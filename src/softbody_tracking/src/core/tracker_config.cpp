@@ -3,7 +3,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "softbody_common/target_limits.h"
+#include "softbody_common/protocol/target_limits.h"
 
 namespace softbody {
 namespace {

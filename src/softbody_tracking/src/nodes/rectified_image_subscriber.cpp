@@ -2,8 +2,8 @@
 
 #include <utility>
 
+#include "softbody_common/protocol/topics.h"
 #include "softbody_common/ros/time.h"
-#include "softbody_common/topics.h"
 #include "softbody_tracking/ros/conversions.h"
 
 namespace softbody {

@@ -1,6 +1,6 @@
-#include "softbody_tracking/ros/blade_trail.h"
+#include "ros/blade_trail.h"
 
-#include "softbody_common/rigid_fit.h"
+#include "softbody_common/geometry/rigid_fit.h"
 #include "softbody_common/ros/conversions.h"
 
 namespace softbody {

@@ -10,7 +10,7 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "softbody_common/plausibility.h"
+#include "softbody_common/geometry/plausibility.h"
 
 namespace enc = sensor_msgs::image_encodings;
 

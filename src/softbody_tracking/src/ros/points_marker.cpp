@@ -1,4 +1,4 @@
-#include "softbody_tracking/ros/points_marker.h"
+#include "ros/points_marker.h"
 
 namespace softbody {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <ros/package.h>
 
-#include "softbody_tracking/robot/robot_mesh_file.h"
+#include "robot/robot_mesh_file.h"
 
 namespace softbody {
 

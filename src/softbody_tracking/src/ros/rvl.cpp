@@ -5,8 +5,8 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "softbody_common/geometry/plausibility.h"
 #include "softbody_common/images/encoded_image.h"
-#include "softbody_common/plausibility.h"
 
 namespace softbody {
 namespace {

@@ -2,10 +2,10 @@
 
 #include <CLI/CLI.hpp>
 
+#include "marker_board/marker_board.h"
+#include "marker_board/marker_board_drawing.h"
 #include "softbody_common/files/staged_output.h"
-#include "softbody_common/run_tool.h"
-#include "softbody_tracking/marker_board/marker_board.h"
-#include "softbody_tracking/marker_board/marker_board_drawing.h"
+#include "softbody_common/tools/run_tool.h"
 #include "softbody_tracking/tool/marker_detector.h"
 
 int main(int argc, char** argv) {

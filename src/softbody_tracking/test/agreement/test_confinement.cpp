@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "agreement/boxes_on_table.h"
-#include "softbody_common/rigid_fit.h"
+#include "softbody_common/geometry/rigid_fit.h"
 #include "softbody_tracking/tracker_config.h"
 
 namespace softbody {

@@ -3,7 +3,7 @@
 #include "agreement/pose_cost.h"
 #include "fixtures/synthetic_scene.h"
 #include "registration/box_mesh.h"
-#include "softbody_common/rigid_fit.h"
+#include "softbody_common/geometry/rigid_fit.h"
 #include "softbody_tracking/tracker_config.h"
 
 namespace softbody {

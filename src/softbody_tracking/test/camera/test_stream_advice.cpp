@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "softbody_tracking/camera/stream_advice.h"
+#include "camera/stream_advice.h"
 
 namespace softbody {
 namespace {

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "softbody_tracking/camera/stream_monitor.h"
+#include "camera/stream_monitor.h"
 
 namespace softbody {
 namespace {

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "softbody_tracking/camera/sync_monitor.h"
+#include "camera/sync_monitor.h"
 
 namespace softbody {
 namespace {

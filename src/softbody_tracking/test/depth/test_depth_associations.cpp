@@ -6,8 +6,8 @@
 #include "depth/depth_associations.h"
 #include "fixtures/labels_at.h"
 #include "fixtures/synthetic_scene.h"
-#include "softbody_common/rigid_fit.h"
-#include "softbody_common/tet_geometry.h"
+#include "softbody_common/geometry/rigid_fit.h"
+#include "softbody_common/geometry/tet_geometry.h"
 #include "softbody_tracking/tracker_config.h"
 
 namespace softbody {

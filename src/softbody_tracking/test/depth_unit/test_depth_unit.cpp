@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "fixtures/synthetic_scene.h"
-#include "softbody_common/rigid_fit.h"
+#include "softbody_common/geometry/rigid_fit.h"
 #include "softbody_tracking/depth_unit/depth_unit.h"
 
 namespace softbody {

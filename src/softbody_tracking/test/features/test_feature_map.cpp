@@ -12,7 +12,7 @@
 #include "features/feature_selection.h"
 #include "fixtures/labels_at.h"
 #include "fixtures/synthetic_scene.h"
-#include "softbody_common/rigid_fit.h"
+#include "softbody_common/geometry/rigid_fit.h"
 
 namespace softbody {
 namespace {

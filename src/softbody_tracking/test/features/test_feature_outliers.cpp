@@ -5,7 +5,7 @@
 
 #include "alignment/rigid_alignment.h"
 #include "features/feature_outliers.h"
-#include "softbody_common/target_limits.h"
+#include "softbody_common/protocol/target_limits.h"
 
 namespace softbody {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "features/feature_recognition.h"
 #include "fixtures/synthetic_scene.h"
-#include "softbody_common/rigid_fit.h"
+#include "softbody_common/geometry/rigid_fit.h"
 
 namespace softbody {
 namespace {

@@ -9,7 +9,7 @@
 #include "agreement/confinement.h"
 #include "fixtures/labels_at.h"
 #include "fixtures/synthetic_scene.h"
-#include "softbody_common/rigid_fit.h"
+#include "softbody_common/geometry/rigid_fit.h"
 
 namespace softbody {
 namespace {

@@ -6,8 +6,8 @@
 #include <fstream>
 #include <numeric>
 
-#include "softbody_tracking/marker_board/marker_board.h"
-#include "softbody_tracking/marker_board/marker_board_drawing.h"
+#include "marker_board/marker_board.h"
+#include "marker_board/marker_board_drawing.h"
 #include "softbody_tracking/tool/marker_detector.h"
 
 namespace softbody {

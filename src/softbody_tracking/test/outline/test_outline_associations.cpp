@@ -9,8 +9,8 @@
 
 #include "fixtures/labels_at.h"
 #include "fixtures/synthetic_scene.h"
-#include "softbody_common/rigid_fit.h"
-#include "softbody_common/tet_geometry.h"
+#include "softbody_common/geometry/rigid_fit.h"
+#include "softbody_common/geometry/tet_geometry.h"
 
 namespace softbody {
 namespace {

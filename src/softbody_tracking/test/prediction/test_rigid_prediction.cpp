@@ -5,7 +5,7 @@
 
 #include "fixtures/synthetic_scene.h"
 #include "prediction/rigid_prediction.h"
-#include "softbody_common/rigid_fit.h"
+#include "softbody_common/geometry/rigid_fit.h"
 
 namespace softbody {
 namespace {

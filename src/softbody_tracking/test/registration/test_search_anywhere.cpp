@@ -6,7 +6,7 @@
 #include "fixtures/synthetic_scene.h"
 #include "registration/box_mesh.h"
 #include "registration/search_anywhere.h"
-#include "softbody_common/rigid_fit.h"
+#include "softbody_common/geometry/rigid_fit.h"
 
 namespace softbody {
 namespace {

@@ -5,7 +5,7 @@
 #include "agreement/boxes_on_table.h"
 #include "fixtures/synthetic_scene.h"
 #include "registration/search_near_pose.h"
-#include "softbody_common/rigid_fit.h"
+#include "softbody_common/geometry/rigid_fit.h"
 #include "softbody_tracking/tracker_config.h"
 
 namespace softbody {

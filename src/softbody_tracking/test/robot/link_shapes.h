@@ -5,8 +5,8 @@
 #include <Eigen/Dense>
 #include <string>
 
+#include "softbody_common/geometry/types.h"
 #include "softbody_common/statistics/random.h"
-#include "softbody_common/types.h"
 
 namespace softbody {
 

@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "robot/link_shapes.h"
-#include "softbody_tracking/robot/robot_mesh_file.h"
+#include "robot/robot_mesh_file.h"
 
 namespace softbody {
 namespace {

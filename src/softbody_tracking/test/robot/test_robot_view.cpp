@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "robot/link_shapes.h"
+#include "robot/robot_view.h"
 #include "robot/solids.h"
-#include "softbody_tracking/robot/robot_view.h"
 
 namespace softbody {
 namespace {

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "softbody_tracking/ros/blade_trail.h"
+#include "ros/blade_trail.h"
 
 namespace softbody {
 namespace {

@@ -1,4 +1,4 @@
-#include "softbody_tracking/ros/pose_marker_message.h"
+#include "ros/pose_marker_message.h"
 
 #include <gtest/gtest.h>
 

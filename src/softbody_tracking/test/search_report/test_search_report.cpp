@@ -2,8 +2,8 @@
 
 #include "fixtures/synthetic_scene.h"
 #include "registration/box_mesh.h"
-#include "softbody_common/rigid_fit.h"
-#include "softbody_tracking/search_report/search_sentence.h"
+#include "search_report/search_sentence.h"
+#include "softbody_common/geometry/rigid_fit.h"
 
 namespace softbody {
 namespace {

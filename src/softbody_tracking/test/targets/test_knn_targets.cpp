@@ -4,7 +4,7 @@
 #include <random>
 
 #include "fixtures/synthetic_scene.h"
-#include "softbody_common/rigid_fit.h"
+#include "softbody_common/geometry/rigid_fit.h"
 #include "targets/knn_targets.h"
 
 namespace softbody {

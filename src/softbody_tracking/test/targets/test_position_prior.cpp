@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "fixtures/synthetic_scene.h"
-#include "softbody_common/tet_geometry.h"
+#include "softbody_common/geometry/tet_geometry.h"
 #include "targets/position_prior.h"
 
 namespace softbody {

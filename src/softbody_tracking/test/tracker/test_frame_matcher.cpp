@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "fixtures/synthetic_scene.h"
-#include "softbody_common/rigid_fit.h"
+#include "softbody_common/geometry/rigid_fit.h"
 #include "statistics/median.h"
 #include "tracker/frame_matcher.h"
 #include "tracker/frame_observer.h"

@@ -7,7 +7,7 @@
 #include <random>
 
 #include "fixtures/synthetic_scene.h"
-#include "softbody_common/rigid_fit.h"
+#include "softbody_common/geometry/rigid_fit.h"
 #include "tracker/frame_observer.h"
 
 namespace softbody {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "fixtures/synthetic_scene.h"
-#include "softbody_common/rigid_fit.h"
+#include "softbody_common/geometry/rigid_fit.h"
 #include "softbody_tracking/tool/tool_mask.h"
 #include "softbody_tracking/tracker/body_tracker.h"
 

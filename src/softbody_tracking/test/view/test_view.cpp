@@ -6,7 +6,7 @@
 
 #include "fixtures/labels_at.h"
 #include "fixtures/synthetic_scene.h"
-#include "softbody_common/rigid_fit.h"
+#include "softbody_common/geometry/rigid_fit.h"
 #include "view/view_measurements.h"
 
 namespace softbody {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "softbody_common/topics.h"
+#include "softbody_common/protocol/topics.h"
 #include "softbody_recordings/ros/atomic_bag.h"
 #include "softbody_virtual_camera/ros/bag_writer.h"
 #include "softbody_virtual_camera/ros/messages.h"

@@ -1,4 +1,4 @@
-#include "softbody_virtual_camera/ros/node.h"
+#include "ros/node.h"
 
 #include <sys/resource.h>
 
@@ -10,9 +10,9 @@
 
 #include <cmath>
 
+#include "softbody_common/protocol/topics.h"
 #include "softbody_common/ros/ros_parameters.h"
 #include "softbody_common/ros/run_node.h"
-#include "softbody_common/topics.h"
 #include "softbody_virtual_camera/ros/messages.h"
 
 namespace softbody::virtual_camera {

@@ -1,9 +1,9 @@
 #include "softbody_virtual_camera/ros/node_options.h"
 
+#include "camera/camera_motion.h"
+#include "catalog/make_scene.h"
 #include "softbody_sim/object/material.h"
-#include "softbody_virtual_camera/camera/camera_motion.h"
-#include "softbody_virtual_camera/catalog/make_scene.h"
-#include "softbody_virtual_camera/textures/body_paint.h"
+#include "textures/body_paint.h"
 
 namespace softbody::virtual_camera {
 namespace {

@@ -1,4 +1,4 @@
-#include "softbody_virtual_camera/ros/render_ahead.h"
+#include "ros/render_ahead.h"
 
 #include <chrono>
 #include <utility>

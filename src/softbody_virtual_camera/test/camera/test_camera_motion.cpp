@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "camera/camera_motion.h"
 #include "fixtures/scene_fixtures.h"
-#include "softbody_virtual_camera/camera/camera_motion.h"
 #include "softbody_virtual_camera/camera/camera_setup.h"
 
 namespace softbody::virtual_camera {

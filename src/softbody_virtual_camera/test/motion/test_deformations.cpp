@@ -1,4 +1,4 @@
-#include "softbody_virtual_camera/motion/deformations.h"
+#include "motion/deformations.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "softbody_virtual_camera/motion/motion_profiles.h"
+#include "motion/motion_profiles.h"
 
 namespace softbody::virtual_camera {
 namespace {

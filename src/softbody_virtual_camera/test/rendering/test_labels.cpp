@@ -3,10 +3,10 @@
 #include <cmath>
 #include <map>
 
+#include "camera/camera_motion.h"
 #include "fixtures/scene_fixtures.h"
 #include "softbody_common/images/pixel_labels.h"
-#include "softbody_common/rasterizer.h"
-#include "softbody_virtual_camera/camera/camera_motion.h"
+#include "softbody_common/images/rasterizer.h"
 #include "softbody_virtual_camera/camera/virtual_camera.h"
 
 namespace softbody::virtual_camera {

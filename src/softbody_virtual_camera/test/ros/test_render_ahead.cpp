@@ -6,7 +6,7 @@
 #include <future>
 #include <thread>
 
-#include "softbody_virtual_camera/ros/render_ahead.h"
+#include "ros/render_ahead.h"
 
 namespace softbody::virtual_camera {
 namespace {

@@ -5,12 +5,12 @@
 #include <random>
 #include <set>
 
+#include "bodies/plane_cut.h"
+#include "bodies/polygon.h"
 #include "fixtures/pieces.h"
 #include "fixtures/scene_fixtures.h"
-#include "softbody_common/tet_geometry.h"
-#include "softbody_virtual_camera/bodies/plane_cut.h"
-#include "softbody_virtual_camera/bodies/polygon.h"
-#include "softbody_virtual_camera/scenes/tool.h"
+#include "scenes/tool.h"
+#include "softbody_common/geometry/tet_geometry.h"
 
 namespace softbody::virtual_camera {
 namespace {

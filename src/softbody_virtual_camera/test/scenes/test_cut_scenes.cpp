@@ -4,8 +4,8 @@
 
 #include "fixtures/pieces.h"
 #include "fixtures/scene_fixtures.h"
-#include "softbody_common/tet_geometry.h"
-#include "softbody_virtual_camera/scenes/tool.h"
+#include "scenes/tool.h"
+#include "softbody_common/geometry/tet_geometry.h"
 
 namespace softbody::virtual_camera {
 namespace {

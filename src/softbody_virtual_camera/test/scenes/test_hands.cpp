@@ -8,7 +8,7 @@
 #include "fixtures/scene_fixtures.h"
 #include "softbody_virtual_camera/camera/virtual_camera.h"
 #include "softbody_virtual_camera/rendering/renderer.h"
-#include "softbody_virtual_camera/textures/body_paint.h"
+#include "textures/body_paint.h"
 
 namespace softbody::virtual_camera {
 namespace {

@@ -6,8 +6,8 @@
 #include <opencv2/calib3d.hpp>
 
 #include "fixtures/scene_fixtures.h"
+#include "scenes/tool.h"
 #include "softbody_virtual_camera/camera/virtual_camera.h"
-#include "softbody_virtual_camera/scenes/tool.h"
 
 namespace softbody::virtual_camera {
 namespace {

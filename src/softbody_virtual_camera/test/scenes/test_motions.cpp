@@ -5,7 +5,7 @@
 #include <opencv2/core.hpp>
 
 #include "fixtures/scene_fixtures.h"
-#include "softbody_common/tet_geometry.h"
+#include "softbody_common/geometry/tet_geometry.h"
 #include "softbody_virtual_camera/camera/virtual_camera.h"
 
 namespace softbody::virtual_camera {

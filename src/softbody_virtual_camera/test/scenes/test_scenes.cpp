@@ -10,7 +10,7 @@
 #include <set>
 
 #include "fixtures/scene_fixtures.h"
-#include "softbody_common/tet_geometry.h"
+#include "softbody_common/geometry/tet_geometry.h"
 #include "softbody_virtual_camera/camera/camera_setup.h"
 #include "softbody_virtual_camera/rendering/renderer.h"
 

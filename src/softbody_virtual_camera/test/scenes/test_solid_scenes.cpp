@@ -3,8 +3,8 @@
 #include <Eigen/Dense>
 #include <map>
 
+#include "camera/camera_motion.h"
 #include "fixtures/scene_fixtures.h"
-#include "softbody_virtual_camera/camera/camera_motion.h"
 #include "softbody_virtual_camera/camera/virtual_camera.h"
 #include "softbody_virtual_camera/rendering/renderer.h"
 

@@ -4,7 +4,7 @@
 
 #include "fixtures/scene_fixtures.h"
 #include "fixtures/solid_fixtures.h"
-#include "softbody_common/tet_geometry.h"
+#include "softbody_common/geometry/tet_geometry.h"
 
 namespace softbody::virtual_camera {
 namespace {

@@ -5,8 +5,8 @@
 #include <opencv2/imgcodecs.hpp>
 #include <utility>
 
+#include "softbody_common/protocol/topics.h"
 #include "softbody_common/ros/camera_messages.h"
-#include "softbody_common/topics.h"
 #include "softbody_tracking/camera/camera_ingest.h"
 #include "softbody_tracking/ros/camera_reader.h"
 #include "softbody_tracking/ros/conversions.h"

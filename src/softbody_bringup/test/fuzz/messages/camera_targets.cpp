@@ -4,7 +4,7 @@
 
 #include "fuzz/messages/camera_frames.h"
 #include "fuzz/messages/target.h"
-#include "softbody_common/topics.h"
+#include "softbody_common/protocol/topics.h"
 #include "softbody_tracking/ros/nodes.h"
 
 namespace softbody::fuzz {

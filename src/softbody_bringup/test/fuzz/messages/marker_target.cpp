@@ -6,9 +6,9 @@
 
 #include "fuzz/messages/block.h"
 #include "fuzz/messages/target.h"
+#include "softbody_common/protocol/topics.h"
 #include "softbody_common/ros/camera_messages.h"
 #include "softbody_common/ros/conversions.h"
-#include "softbody_common/topics.h"
 #include "softbody_tracking/ros/nodes.h"
 #include "softbody_virtual_camera/camera/virtual_camera.h"
 

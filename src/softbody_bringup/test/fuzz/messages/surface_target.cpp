@@ -7,8 +7,8 @@
 
 #include "fuzz/messages/block.h"
 #include "fuzz/messages/target.h"
+#include "softbody_common/protocol/topics.h"
 #include "softbody_common/ros/conversions.h"
-#include "softbody_common/topics.h"
 #include "softbody_sim/ros/nodes.h"
 
 namespace softbody::fuzz {

@@ -8,9 +8,9 @@
 
 #include "fuzz/messages/camera_frames.h"
 #include "fuzz/messages/target.h"
-#include "softbody_common/rigid_fit.h"
+#include "softbody_common/geometry/rigid_fit.h"
+#include "softbody_common/protocol/topics.h"
 #include "softbody_common/ros/conversions.h"
-#include "softbody_common/topics.h"
 #include "softbody_sim/object/object_model.h"
 #include "softbody_tracking/ros/nodes.h"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "softbody_common/files/input_file.h"
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/types.h"
 
 namespace softbody {
 

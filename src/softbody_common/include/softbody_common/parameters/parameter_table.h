@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include "softbody_common/parameters.h"
 #include "softbody_common/parameters/parameter_description.h"
-#include "softbody_common/time.h"
+#include "softbody_common/parameters/parameters.h"
+#include "softbody_common/time/time.h"
 
 namespace softbody {
 

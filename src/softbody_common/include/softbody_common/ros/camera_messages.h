@@ -2,7 +2,7 @@
 
 #include <sensor_msgs/CameraInfo.h>
 
-#include "softbody_common/pinhole.h"
+#include "softbody_common/geometry/pinhole.h"
 
 /// The camera's description as a message.
 namespace softbody {

@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
+#include "softbody_common/geometry/types.h"
 #include "softbody_common/ros/geometry_messages.h"
 #include "softbody_common/ros/time.h"
-#include "softbody_common/stage_timer.h"
-#include "softbody_common/types.h"
+#include "softbody_common/time/stage_timer.h"
 
 /// Conversions between the core's structs and softbody_msgs. fromMessage throws std::invalid_argument with
 /// field and index if array sizes, indices or numbers are not valid. The caller sets and reads the

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "softbody_common/edit_history.h"
+#include "softbody_common/cutting/edit_history.h"
 
 /// Cuts as messages. The caller sets and reads the headers.
 namespace softbody {

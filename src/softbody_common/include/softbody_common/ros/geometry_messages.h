@@ -9,7 +9,7 @@
 
 #include <vector>
 
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/types.h"
 
 /// Points and poses as messages. fromMessage and fromPoint32s throw std::invalid_argument, with the field,
 /// for numbers that are not finite or beyond kLargestCoordinate_m.

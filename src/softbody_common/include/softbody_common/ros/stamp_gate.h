@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "softbody_common/timeline.h"
+#include "softbody_common/time/timeline.h"
 
 namespace softbody {
 

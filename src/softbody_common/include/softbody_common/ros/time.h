@@ -2,7 +2,7 @@
 
 #include <ros/time.h>
 
-#include "softbody_common/time.h"
+#include "softbody_common/time/time.h"
 
 /// ros::Time throws where a difference exceeds 2^31 s or a sum 2^32 s. So the nodes and tools compute in
 /// nanoseconds.

@@ -10,7 +10,7 @@
 #include <set>
 #include <string>
 
-#include "softbody_common/timeline.h"
+#include "softbody_common/time/timeline.h"
 
 namespace softbody {
 

@@ -7,7 +7,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 
-#include "softbody_common/plausibility.h"
+#include "softbody_common/geometry/plausibility.h"
 
 namespace softbody {
 namespace {

@@ -11,8 +11,8 @@
 #include "softbody_common/files/object_path.h"
 #include "softbody_common/files/text_reader.h"
 #include "softbody_common/files/yaml_map_reader.h"
+#include "softbody_common/geometry/plausibility.h"
 #include "softbody_common/images/encoded_image.h"
-#include "softbody_common/plausibility.h"
 
 namespace softbody {
 namespace fs = std::filesystem;

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "softbody_common/camera_topics.h"
+#include "softbody_common/protocol/camera_topics.h"
 
 namespace softbody::evaluation {
 

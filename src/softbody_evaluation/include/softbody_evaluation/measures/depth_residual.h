@@ -3,7 +3,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/types.h"
 #include "softbody_evaluation/measures/statistics.h"
 
 namespace softbody::evaluation {

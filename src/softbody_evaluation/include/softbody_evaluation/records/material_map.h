@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <unordered_map>
 
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/types.h"
 
 namespace softbody::evaluation {
 

@@ -8,8 +8,8 @@
 
 #include "comparison/overlay_drawing.h"
 #include "comparison/side_views.h"
-#include "softbody_common/time.h"
-#include "softbody_evaluation/report/plots.h"
+#include "report/plots.h"
+#include "softbody_common/time/time.h"
 
 namespace softbody::evaluation {
 namespace {

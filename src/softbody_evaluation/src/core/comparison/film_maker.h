@@ -6,11 +6,11 @@
 #include <tuple>
 #include <vector>
 
+#include "measures/material_match.h"
+#include "records/recorded_frame.h"
+#include "report/film.h"
 #include "softbody_evaluation/comparison/evaluator_options.h"
-#include "softbody_evaluation/measures/material_match.h"
-#include "softbody_evaluation/records/recorded_frame.h"
 #include "softbody_evaluation/records/surface_record.h"
-#include "softbody_evaluation/report/film.h"
 
 namespace softbody::evaluation {
 

@@ -1,11 +1,11 @@
-#include "softbody_evaluation/comparison/material_maps.h"
+#include "comparison/material_maps.h"
 
 #include <algorithm>
 #include <utility>
 
 #include "comparison/other_mesh.h"
-#include "softbody_evaluation/measures/material_match.h"
-#include "softbody_evaluation/measures/rest_symmetry.h"
+#include "measures/material_match.h"
+#include "measures/rest_symmetry.h"
 #include "softbody_evaluation/measures/vertex_match.h"
 
 namespace softbody::evaluation {

@@ -6,7 +6,7 @@
 #include <iterator>
 #include <stdexcept>
 
-#include "softbody_common/time.h"
+#include "softbody_common/time/time.h"
 
 namespace softbody::evaluation {
 namespace {

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "softbody_common/rigid_fit.h"
-#include "softbody_evaluation/measures/material_match.h"
-#include "softbody_evaluation/measures/rest_symmetry.h"
+#include "measures/material_match.h"
+#include "measures/rest_symmetry.h"
+#include "softbody_common/geometry/rigid_fit.h"
 #include "softbody_evaluation/measures/surface_samples.h"
 #include "softbody_evaluation/measures/vertex_match.h"
 #include "softbody_evaluation/models/model_fit.h"

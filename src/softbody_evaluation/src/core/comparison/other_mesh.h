@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "softbody_evaluation/records/status_record.h"
+#include "records/status_record.h"
 #include "softbody_evaluation/records/surface_record.h"
 #include "softbody_evaluation/report/alike_poses.h"
 

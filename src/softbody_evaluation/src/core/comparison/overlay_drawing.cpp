@@ -3,7 +3,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "softbody_common/rasterizer.h"
+#include "softbody_common/images/rasterizer.h"
 
 namespace softbody::evaluation {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <stdexcept>
 
-#include "softbody_common/time.h"
-#include "softbody_evaluation/report/plots.h"
+#include "report/plots.h"
+#include "softbody_common/time/time.h"
 
 namespace softbody::evaluation {
 namespace {

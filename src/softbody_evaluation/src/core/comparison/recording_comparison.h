@@ -4,12 +4,12 @@
 #include <vector>
 
 #include "comparison/film_maker.h"
-#include "softbody_common/rasterizer.h"
+#include "records/recorded_frame.h"
+#include "report/pictures.h"
+#include "softbody_common/images/rasterizer.h"
 #include "softbody_evaluation/comparison/evaluator_options.h"
 #include "softbody_evaluation/measures/depth_residual.h"
-#include "softbody_evaluation/records/recorded_frame.h"
 #include "softbody_evaluation/records/surface_record.h"
-#include "softbody_evaluation/report/pictures.h"
 #include "softbody_evaluation/report/report.h"
 
 namespace softbody::evaluation {

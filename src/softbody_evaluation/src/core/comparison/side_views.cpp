@@ -7,8 +7,8 @@
 #include <limits>
 #include <opencv2/imgproc.hpp>
 
-#include "softbody_evaluation/report/plots.h"
-#include "softbody_sim/report/mesh_drawing.h"
+#include "report/plots.h"
+#include "softbody_sim/drawing/mesh_drawing.h"
 
 namespace softbody::evaluation {
 namespace {

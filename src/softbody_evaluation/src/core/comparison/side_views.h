@@ -3,8 +3,8 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "softbody_common/types.h"
-#include "softbody_evaluation/records/recorded_frame.h"
+#include "records/recorded_frame.h"
+#include "softbody_common/geometry/types.h"
 
 namespace softbody::evaluation {
 

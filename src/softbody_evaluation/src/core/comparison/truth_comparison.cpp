@@ -7,11 +7,11 @@
 #include <stdexcept>
 #include <tuple>
 
-#include "softbody_common/time.h"
-#include "softbody_evaluation/measures/material_match.h"
+#include "measures/material_match.h"
+#include "report/plots.h"
+#include "softbody_common/time/time.h"
 #include "softbody_evaluation/measures/surface_distance.h"
 #include "softbody_evaluation/measures/vertex_match.h"
-#include "softbody_evaluation/report/plots.h"
 
 namespace softbody::evaluation {
 namespace {

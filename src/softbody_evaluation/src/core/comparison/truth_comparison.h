@@ -1,8 +1,8 @@
 #pragma once
 
+#include "report/pictures.h"
 #include "softbody_evaluation/comparison/evaluator_options.h"
 #include "softbody_evaluation/records/surface_record.h"
-#include "softbody_evaluation/report/pictures.h"
 #include "softbody_evaluation/report/report.h"
 
 namespace softbody::evaluation {

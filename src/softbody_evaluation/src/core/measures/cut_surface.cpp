@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "softbody_common/tet_geometry.h"
+#include "softbody_common/geometry/tet_geometry.h"
 
 namespace softbody::evaluation {
 namespace {

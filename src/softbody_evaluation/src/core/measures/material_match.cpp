@@ -1,12 +1,12 @@
-#include "softbody_evaluation/measures/material_match.h"
+#include "measures/material_match.h"
 
 #include <Eigen/Dense>
 #include <limits>
 #include <utility>
 
-#include "softbody_common/rigid_fit.h"
-#include "softbody_common/tet_geometry.h"
-#include "softbody_evaluation/measures/corner_weights.h"
+#include "measures/corner_weights.h"
+#include "softbody_common/geometry/rigid_fit.h"
+#include "softbody_common/geometry/tet_geometry.h"
 #include "softbody_evaluation/measures/vertex_match.h"
 #include "softbody_sim/surface_mesh/closest_point.h"
 

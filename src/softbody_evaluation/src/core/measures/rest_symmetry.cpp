@@ -1,12 +1,12 @@
-#include "softbody_evaluation/measures/rest_symmetry.h"
+#include "measures/rest_symmetry.h"
 
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
-#include "softbody_common/rigid_fit.h"
-#include "softbody_common/tet_geometry.h"
-#include "softbody_evaluation/measures/corner_weights.h"
+#include "measures/corner_weights.h"
+#include "softbody_common/geometry/rigid_fit.h"
+#include "softbody_common/geometry/tet_geometry.h"
 #include "softbody_sim/surface_mesh/closest_point.h"
 
 namespace softbody::evaluation {

@@ -2,7 +2,7 @@
 
 #include <Eigen/Dense>
 
-#include "softbody_evaluation/measures/corner_weights.h"
+#include "measures/corner_weights.h"
 #include "softbody_sim/surface_mesh/closest_point.h"
 
 namespace softbody::evaluation {

@@ -8,7 +8,7 @@
 #include <set>
 #include <utility>
 
-#include "softbody_common/tet_geometry.h"
+#include "softbody_common/geometry/tet_geometry.h"
 
 namespace softbody::evaluation {
 namespace {

@@ -8,8 +8,8 @@
 #include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 
+#include "measures/corner_weights.h"
 #include "softbody_common/files/text_reader.h"
-#include "softbody_evaluation/measures/corner_weights.h"
 #include "softbody_evaluation/measures/statistics.h"
 #include "softbody_sim/io/surface_files.h"
 #include "softbody_sim/object/object_description.h"

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <vector>
 
-#include "softbody_common/rigid_fit.h"
-#include "softbody_common/tet_geometry.h"
-#include "softbody_evaluation/measures/corner_weights.h"
+#include "measures/corner_weights.h"
+#include "softbody_common/geometry/rigid_fit.h"
+#include "softbody_common/geometry/tet_geometry.h"
 #include "softbody_evaluation/measures/surface_samples.h"
 #include "softbody_evaluation/measures/volume.h"
 #include "softbody_sim/surface_mesh/closest_point.h"

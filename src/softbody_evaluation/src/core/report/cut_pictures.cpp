@@ -1,4 +1,4 @@
-#include "softbody_evaluation/report/cut_pictures.h"
+#include "report/cut_pictures.h"
 
 #include <fmt/format.h>
 
@@ -6,10 +6,10 @@
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
-#include "softbody_common/rigid_fit.h"
-#include "softbody_common/time.h"
-#include "softbody_evaluation/report/plots.h"
-#include "softbody_sim/report/mesh_drawing.h"
+#include "report/plots.h"
+#include "softbody_common/geometry/rigid_fit.h"
+#include "softbody_common/time/time.h"
+#include "softbody_sim/drawing/mesh_drawing.h"
 
 namespace softbody::evaluation {
 namespace {

@@ -1,4 +1,4 @@
-#include "softbody_evaluation/report/figures.h"
+#include "report/figures.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "softbody_evaluation/report/model_report.h"
+#include "report/model_report.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "softbody_evaluation/report/plots.h"
+#include "report/plots.h"
 
 #include <fmt/format.h>
 

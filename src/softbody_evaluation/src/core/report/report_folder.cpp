@@ -1,4 +1,4 @@
-#include "softbody_evaluation/report/report_folder.h"
+#include "report/report_folder.h"
 
 #include <fmt/format.h>
 

@@ -1,11 +1,11 @@
-#include "softbody_evaluation/report/report_json.h"
+#include "report/report_json.h"
 
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "report/units.h"
+#include "report/verdict.h"
 #include "softbody_common/images/pixel_labels.h"
-#include "softbody_evaluation/report/verdict.h"
 
 namespace softbody::evaluation {
 namespace {

@@ -1,4 +1,4 @@
-#include "softbody_evaluation/report/report_text.h"
+#include "report/report_text.h"
 
 #include <fmt/format.h>
 

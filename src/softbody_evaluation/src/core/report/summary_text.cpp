@@ -1,4 +1,4 @@
-#include "softbody_evaluation/report/summary_text.h"
+#include "report/summary_text.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <set>
 #include <sstream>
 
-#include "softbody_evaluation/report/verdict.h"
+#include "report/verdict.h"
 
 namespace softbody::evaluation {
 namespace {

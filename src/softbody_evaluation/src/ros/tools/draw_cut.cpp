@@ -6,13 +6,13 @@
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
 
-#include "softbody_common/camera_options.h"
+#include "report/cut_pictures.h"
+#include "ros/recording_reader.h"
+#include "ros/result_reader.h"
 #include "softbody_common/files/staged_output.h"
-#include "softbody_common/run_tool.h"
-#include "softbody_common/topics.h"
-#include "softbody_evaluation/report/cut_pictures.h"
-#include "softbody_evaluation/ros/recording_reader.h"
-#include "softbody_evaluation/ros/result_reader.h"
+#include "softbody_common/protocol/topics.h"
+#include "softbody_common/tools/camera_options.h"
+#include "softbody_common/tools/run_tool.h"
 #include "softbody_evaluation/ros/surface_reader.h"
 
 namespace softbody::evaluation {

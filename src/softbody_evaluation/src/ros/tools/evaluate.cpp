@@ -7,15 +7,15 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "softbody_common/camera_options.h"
-#include "softbody_common/run_tool.h"
+#include "report/figures.h"
+#include "report/model_report.h"
+#include "report/report_json.h"
+#include "report/report_text.h"
+#include "report/summary_text.h"
+#include "softbody_common/tools/camera_options.h"
+#include "softbody_common/tools/run_tool.h"
 #include "softbody_evaluation/models/model_distance.h"
 #include "softbody_evaluation/models/model_fit.h"
-#include "softbody_evaluation/report/figures.h"
-#include "softbody_evaluation/report/model_report.h"
-#include "softbody_evaluation/report/report_json.h"
-#include "softbody_evaluation/report/report_text.h"
-#include "softbody_evaluation/report/summary_text.h"
 #include "softbody_evaluation/ros/evaluator.h"
 
 namespace softbody::evaluation {

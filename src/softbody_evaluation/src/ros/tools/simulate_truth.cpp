@@ -2,7 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "softbody_common/run_tool.h"
+#include "softbody_common/tools/run_tool.h"
 #include "softbody_evaluation/ros/simulate_truth.h"
 
 namespace softbody::evaluation {

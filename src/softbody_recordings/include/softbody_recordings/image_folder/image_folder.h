@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "softbody_common/files/input_file.h"
-#include "softbody_common/pinhole.h"
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/pinhole.h"
+#include "softbody_common/geometry/types.h"
 
 namespace softbody {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "softbody_common/stage_timer.h"
+#include "softbody_common/time/stage_timer.h"
 #include "softbody_recordings/pipeline/body_surroundings.h"
 #include "softbody_recordings/pipeline/pin_forces.h"
 #include "softbody_sim/cutting/binding/cuttable_surface.h"

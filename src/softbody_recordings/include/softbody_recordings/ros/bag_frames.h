@@ -9,7 +9,7 @@
 #include <map>
 #include <string>
 
-#include "softbody_common/camera_topics.h"
+#include "softbody_common/protocol/camera_topics.h"
 #include "softbody_recordings/validation/recording_facts.h"
 #include "softbody_tracking/camera/camera_ingest.h"
 #include "softbody_tracking/camera/frame_pairer.h"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "softbody_common/files/input_file.h"
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/types.h"
 #include "softbody_recordings/ros/bag_frames.h"
 
 namespace softbody {

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/types.h"
 #include "softbody_recordings/validation/registration_shift.h"
 
 namespace softbody::validation {

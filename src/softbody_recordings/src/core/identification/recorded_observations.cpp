@@ -8,8 +8,8 @@
 
 #include "identification/mean_wrench.h"
 #include "identification/rigid_pins.h"
-#include "softbody_common/rigid_fit.h"
-#include "softbody_common/time.h"
+#include "softbody_common/geometry/rigid_fit.h"
+#include "softbody_common/time/time.h"
 
 namespace softbody {
 namespace {

@@ -5,7 +5,7 @@
 #include <map>
 #include <string>
 
-#include "softbody_common/rigid_fit.h"
+#include "softbody_common/geometry/rigid_fit.h"
 #include "softbody_common/statistics/median.h"
 
 namespace softbody {

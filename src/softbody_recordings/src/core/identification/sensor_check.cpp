@@ -5,7 +5,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 
-#include "softbody_common/time.h"
+#include "softbody_common/time/time.h"
 
 namespace softbody {
 namespace {

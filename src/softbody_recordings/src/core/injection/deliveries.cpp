@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "softbody_common/statistics/random.h"
-#include "softbody_common/time.h"
+#include "softbody_common/time/time.h"
 
 namespace softbody::injection {
 namespace {

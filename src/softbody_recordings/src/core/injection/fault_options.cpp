@@ -1,4 +1,4 @@
-#include "softbody_recordings/injection/fault_options.h"
+#include "injection/fault_options.h"
 
 namespace softbody::injection {
 

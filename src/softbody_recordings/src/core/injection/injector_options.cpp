@@ -1,6 +1,6 @@
 #include "softbody_recordings/injection/injector_options.h"
 
-#include "softbody_recordings/injection/fault_options.h"
+#include "injection/fault_options.h"
 
 namespace softbody::injection {
 namespace {

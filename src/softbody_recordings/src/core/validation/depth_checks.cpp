@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "softbody_common/camera_topics.h"
+#include "softbody_common/protocol/camera_topics.h"
 
 namespace softbody::validation {
 namespace {

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <set>
 
-#include "softbody_common/timeline.h"
+#include "softbody_common/time/timeline.h"
 
 namespace softbody::validation {
 namespace {

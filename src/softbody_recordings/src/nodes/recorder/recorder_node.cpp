@@ -8,8 +8,8 @@
 #include <stdexcept>
 
 #include "nodes/recorder/topic_recorder.h"
+#include "softbody_common/protocol/topics.h"
 #include "softbody_common/ros/ros_parameters.h"
-#include "softbody_common/topics.h"
 
 namespace softbody {
 namespace {

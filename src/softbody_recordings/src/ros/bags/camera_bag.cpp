@@ -1,4 +1,4 @@
-#include "softbody_recordings/ros/camera_bag.h"
+#include "ros/bags/camera_bag.h"
 
 #include <cv_bridge/cv_bridge.h>
 #include <sensor_msgs/image_encodings.h>

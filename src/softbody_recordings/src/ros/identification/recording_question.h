@@ -6,7 +6,7 @@
 
 #include "identification/material_question.h"
 #include "identification/shape_question.h"
-#include "softbody_common/camera_topics.h"
+#include "softbody_common/protocol/camera_topics.h"
 #include "softbody_recordings/ros/graph_config.h"
 
 namespace softbody {

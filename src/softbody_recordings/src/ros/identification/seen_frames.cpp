@@ -9,13 +9,13 @@
 #include <stdexcept>
 
 #include "ros/replay/camera_poses.h"
+#include "ros/replay/recorded_surroundings.h"
 #include "softbody_common/images/object_texture.h"
+#include "softbody_common/protocol/tracking_state.h"
 #include "softbody_common/ros/frame_name.h"
 #include "softbody_common/ros/time.h"
-#include "softbody_common/time.h"
-#include "softbody_common/tracking_state.h"
+#include "softbody_common/time/time.h"
 #include "softbody_recordings/ros/input_bag.h"
-#include "softbody_recordings/ros/recorded_surroundings.h"
 #include "softbody_recordings/ros/typed_message.h"
 
 namespace softbody {

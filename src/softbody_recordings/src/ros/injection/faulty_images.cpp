@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "softbody_common/ros/conversions.h"
-#include "softbody_common/time.h"
+#include "softbody_common/time/time.h"
 #include "softbody_tracking/ros/conversions.h"
 
 namespace softbody::injection {

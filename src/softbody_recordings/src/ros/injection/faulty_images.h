@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/types.h"
 #include "softbody_recordings/injection/image_faults.h"
 
 namespace softbody::injection {

@@ -1,4 +1,4 @@
-#include "softbody_recordings/ros/injector.h"
+#include "ros/injection/injector.h"
 
 #include <fmt/format.h>
 #include <rosbag/bag.h>
@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "ros/injection/faulty_images.h"
-#include "softbody_common/camera_topics.h"
+#include "softbody_common/protocol/camera_topics.h"
 #include "softbody_common/ros/conversions.h"
 #include "softbody_recordings/ros/atomic_bag.h"
 #include "softbody_recordings/ros/input_bag.h"

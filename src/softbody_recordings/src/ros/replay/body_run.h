@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "ros/replay/cut_journal.h"
 #include "softbody_recordings/pipeline/pipeline.h"
-#include "softbody_recordings/ros/cut_journal.h"
 #include "softbody_recordings/ros/replay.h"
 #include "softbody_recordings/ros/result_bag.h"
 #include "softbody_tracking/known/followed_surface.h"

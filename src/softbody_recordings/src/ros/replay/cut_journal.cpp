@@ -1,4 +1,4 @@
-#include "softbody_recordings/ros/cut_journal.h"
+#include "ros/replay/cut_journal.h"
 
 #include <fmt/format.h>
 #include <rosbag/view.h>

@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "softbody_common/files/yaml_map_reader.h"
-#include "softbody_common/parameters.h"
+#include "softbody_common/parameters/parameters.h"
 #include "softbody_common/ros/frame_name.h"
 #include "softbody_sim/ros/simulator_options.h"
 #include "softbody_sim/ros/surface_options.h"

@@ -1,7 +1,7 @@
 #include "softbody_recordings/ros/object_trial.h"
 
 #include "softbody_common/images/object_texture.h"
-#include "softbody_common/time.h"
+#include "softbody_common/time/time.h"
 #include "softbody_recordings/pipeline/pipeline.h"
 #include "softbody_recordings/ros/input_bag.h"
 #include "softbody_tracking/depth_unit/depth_unit.h"

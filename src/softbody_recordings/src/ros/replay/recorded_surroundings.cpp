@@ -1,4 +1,4 @@
-#include "softbody_recordings/ros/recorded_surroundings.h"
+#include "ros/replay/recorded_surroundings.h"
 
 #include <fmt/format.h>
 #include <rosbag/view.h>

@@ -12,14 +12,14 @@
 #include "ros/replay/camera_poses.h"
 #include "ros/replay/recorded_robot.h"
 #include "ros/replay/recorded_surface.h"
+#include "ros/replay/recorded_surroundings.h"
 #include "softbody_common/images/object_texture.h"
+#include "softbody_common/protocol/topics.h"
 #include "softbody_common/ros/frame_name.h"
-#include "softbody_common/topics.h"
 #include "softbody_recordings/ros/graph_config.h"
 #include "softbody_recordings/ros/input_bag.h"
 #include "softbody_recordings/ros/object_namespaces.h"
 #include "softbody_recordings/ros/recorded_images.h"
-#include "softbody_recordings/ros/recorded_surroundings.h"
 #include "softbody_tracking/depth_unit/depth_unit.h"
 
 namespace softbody {

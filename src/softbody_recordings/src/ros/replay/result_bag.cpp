@@ -6,10 +6,10 @@
 #include <tf2_eigen/tf2_eigen.h>
 #include <tf2_msgs/TFMessage.h>
 
+#include "softbody_common/protocol/topics.h"
 #include "softbody_common/ros/conversions.h"
 #include "softbody_common/ros/cut_messages.h"
 #include "softbody_common/ros/frame_name.h"
-#include "softbody_common/topics.h"
 #include "softbody_sim/ros/force_messages.h"
 #include "softbody_tracking/ros/feature_messages.h"
 #include "softbody_tracking/ros/tool_messages.h"

@@ -4,8 +4,8 @@
 
 #include <CLI/CLI.hpp>
 
-#include "softbody_common/camera_options.h"
-#include "softbody_common/run_tool.h"
+#include "softbody_common/tools/camera_options.h"
+#include "softbody_common/tools/run_tool.h"
 #include "softbody_recordings/ros/bag_frames.h"
 #include "softbody_recordings/ros/input_bag.h"
 #include "softbody_tracking/tool/tool_calibration_check.h"

@@ -9,8 +9,8 @@
 #include "identification/estimate_output.h"
 #include "identification/shape_question.h"
 #include "ros/identification/recording_question.h"
-#include "softbody_common/camera_options.h"
-#include "softbody_common/run_tool.h"
+#include "softbody_common/tools/camera_options.h"
+#include "softbody_common/tools/run_tool.h"
 
 namespace softbody {
 namespace {

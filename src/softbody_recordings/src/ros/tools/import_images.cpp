@@ -5,11 +5,11 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
+#include "ros/bags/camera_bag.h"
 #include "softbody_common/ros/camera_messages.h"
 #include "softbody_common/ros/conversions.h"
-#include "softbody_common/run_tool.h"
+#include "softbody_common/tools/run_tool.h"
 #include "softbody_recordings/image_folder/image_folder.h"
-#include "softbody_recordings/ros/camera_bag.h"
 
 namespace softbody {
 namespace {

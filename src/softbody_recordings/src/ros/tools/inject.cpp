@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "softbody_common/run_tool.h"
-#include "softbody_recordings/injection/fault_options.h"
-#include "softbody_recordings/ros/injector.h"
+#include "injection/fault_options.h"
+#include "ros/injection/injector.h"
+#include "softbody_common/tools/run_tool.h"
 
 namespace softbody::injection {
 namespace {

@@ -7,9 +7,9 @@
 #include <cstdio>
 #include <opencv2/core/utility.hpp>
 
-#include "softbody_common/camera_options.h"
-#include "softbody_common/run_tool.h"
-#include "softbody_common/tracking_state.h"
+#include "softbody_common/protocol/tracking_state.h"
+#include "softbody_common/tools/camera_options.h"
+#include "softbody_common/tools/run_tool.h"
 #include "softbody_recordings/ros/replay.h"
 
 namespace softbody {

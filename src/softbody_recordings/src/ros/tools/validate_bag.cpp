@@ -6,8 +6,8 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "softbody_common/camera_options.h"
-#include "softbody_common/run_tool.h"
+#include "softbody_common/tools/camera_options.h"
+#include "softbody_common/tools/run_tool.h"
 #include "softbody_recordings/ros/facts_reader.h"
 #include "softbody_recordings/ros/object_trial.h"
 #include "softbody_recordings/validation/checks.h"

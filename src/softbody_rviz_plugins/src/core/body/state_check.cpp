@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "softbody_common/plausibility.h"
+#include "softbody_common/geometry/plausibility.h"
 
 namespace softbody {
 namespace {

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "colors/color.h"
+#include "softbody_common/geometry/types.h"
 #include "softbody_common/images/vertex_colors.h"
-#include "softbody_common/types.h"
 #include "surface/mesh_layout.h"
 #include "surface/strain.h"
 

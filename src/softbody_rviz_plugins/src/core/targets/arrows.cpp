@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "softbody_common/tet_geometry.h"
+#include "softbody_common/geometry/tet_geometry.h"
 
 namespace softbody {
 namespace {

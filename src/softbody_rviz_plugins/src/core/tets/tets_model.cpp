@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "body/state_check.h"
-#include "softbody_common/plausibility.h"
+#include "softbody_common/geometry/plausibility.h"
 
 namespace softbody {
 namespace {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "colors/color.h"
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/types.h"
 #include "surface/mesh_layout.h"
 #include "targets/arrows.h"
 #include "tets/cutaway.h"

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "ros/panel/service_caller.h"
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/types.h"
 
 namespace softbody {
 

@@ -3,7 +3,7 @@
 #include <QDateTime>
 #include <QDir>
 
-#include "softbody_common/topics.h"
+#include "softbody_common/protocol/topics.h"
 
 namespace softbody {
 namespace {

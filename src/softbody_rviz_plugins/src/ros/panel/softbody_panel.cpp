@@ -11,8 +11,8 @@
 #include <pluginlib/class_list_macros.hpp>
 #include <stdexcept>
 
+#include "softbody_common/protocol/topics.h"
 #include "softbody_common/ros/conversions.h"
-#include "softbody_common/topics.h"
 #include "timing/status_words.h"
 
 namespace softbody {

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/types.h"
 #include "softbody_scanning/fusion/depth_view.h"
 
 namespace softbody::scanning {

@@ -4,7 +4,7 @@
 #include <map>
 #include <string>
 
-#include "softbody_common/camera_topics.h"
+#include "softbody_common/protocol/camera_topics.h"
 #include "softbody_scanning/scan/scanned_body.h"
 #include "softbody_tracking/tool/tool_description.h"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/types.h"
 #include "softbody_scanning/key_frames/key_frame.h"
 #include "softbody_scanning/registration/surface_registration.h"
 

@@ -1,4 +1,4 @@
-#include "softbody_scanning/key_frames/key_frame_choice.h"
+#include "key_frames/key_frame_choice.h"
 
 #include <opencv2/imgproc.hpp>
 

@@ -1,4 +1,4 @@
-#include "softbody_scanning/markerless/markerless_motion.h"
+#include "markerless/markerless_motion.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "softbody_scanning/markerless/pose_refinement.h"
+#include "markerless/pose_refinement.h"
 
 #include <tbb/parallel_for.h>
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "softbody_common/pinhole.h"
+#include "softbody_common/geometry/pinhole.h"
 
 namespace softbody::scanning {
 

@@ -4,7 +4,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "softbody_common/pinhole.h"
+#include "softbody_common/geometry/pinhole.h"
 
 namespace softbody::scanning {
 

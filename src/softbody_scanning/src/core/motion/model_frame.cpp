@@ -1,4 +1,4 @@
-#include "softbody_scanning/motion/model_frame.h"
+#include "motion/model_frame.h"
 
 #include <Eigen/Dense>
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "softbody_scanning/motion/sheet_depth.h"
+#include "motion/sheet_depth.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "softbody_scanning/motion/sheet_motion.h"
+#include "motion/sheet_motion.h"
 
 namespace softbody::scanning {
 namespace {

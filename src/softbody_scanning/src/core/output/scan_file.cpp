@@ -1,4 +1,4 @@
-#include "softbody_scanning/output/scan_file.h"
+#include "output/scan_file.h"
 
 #include <fmt/format.h>
 

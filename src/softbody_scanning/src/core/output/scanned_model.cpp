@@ -5,11 +5,11 @@
 #include <Eigen/Dense>
 #include <filesystem>
 
+#include "output/scan_file.h"
 #include "softbody_common/files/staged_output.h"
-#include "softbody_common/tet_geometry.h"
-#include "softbody_scanning/output/scan_file.h"
-#include "softbody_scanning/texture/painted_mesh.h"
+#include "softbody_common/geometry/tet_geometry.h"
 #include "softbody_sim/io/textured_mesh_file.h"
+#include "texture/painted_mesh.h"
 
 namespace softbody::scanning {
 namespace {

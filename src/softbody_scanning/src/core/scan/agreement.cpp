@@ -1,12 +1,12 @@
-#include "softbody_scanning/scan/agreement.h"
+#include "scan/agreement.h"
 
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "softbody_common/rasterizer.h"
-#include "softbody_common/rigid_fit.h"
+#include "softbody_common/geometry/rigid_fit.h"
+#include "softbody_common/images/rasterizer.h"
 #include "softbody_common/statistics/median.h"
 
 namespace softbody::scanning {

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "scan/agreement.h"
 #include "softbody_scanning/fusion/depth_view.h"
-#include "softbody_scanning/scan/agreement.h"
 
 namespace softbody::scanning {
 namespace {

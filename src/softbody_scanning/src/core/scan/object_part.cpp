@@ -5,7 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "softbody_common/tet_geometry.h"
+#include "softbody_common/geometry/tet_geometry.h"
 #include "softbody_scanning/surface/mesh_parts.h"
 
 namespace softbody::scanning {

@@ -1,4 +1,4 @@
-#include "softbody_scanning/scan/preview.h"
+#include "scan/preview.h"
 
 #include "scan/single_scan.h"
 

@@ -3,7 +3,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/types.h"
 #include "softbody_scanning/key_frames/key_frame.h"
 #include "texture/edge_neighbors.h"
 

@@ -1,4 +1,4 @@
-#include "softbody_scanning/texture/painted_mesh.h"
+#include "texture/painted_mesh.h"
 
 #include <algorithm>
 #include <stdexcept>

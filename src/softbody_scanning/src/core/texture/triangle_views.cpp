@@ -5,8 +5,8 @@
 #include <limits>
 #include <opencv2/imgproc.hpp>
 
-#include "softbody_common/rasterizer.h"
-#include "softbody_common/rigid_fit.h"
+#include "softbody_common/geometry/rigid_fit.h"
+#include "softbody_common/images/rasterizer.h"
 #include "texture/pixel_color.h"
 
 namespace softbody::scanning {

@@ -8,9 +8,9 @@
 #include <iostream>
 #include <map>
 
-#include "softbody_common/camera_options.h"
-#include "softbody_common/plausibility.h"
-#include "softbody_common/run_tool.h"
+#include "softbody_common/geometry/plausibility.h"
+#include "softbody_common/tools/camera_options.h"
+#include "softbody_common/tools/run_tool.h"
 #include "softbody_scanning/output/scanned_model.h"
 #include "softbody_scanning/ros/recording_reader.h"
 #include "softbody_scanning/scan/checked_scan.h"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "softbody_common/parameters/parameter_table.h"
-#include "softbody_common/topics.h"
+#include "softbody_common/protocol/topics.h"
 #include "softbody_sim/constraints/obstacle_description.h"
 #include "softbody_sim/object/pin_region.h"
 

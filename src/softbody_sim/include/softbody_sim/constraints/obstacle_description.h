@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "softbody_common/parameters.h"
+#include "softbody_common/parameters/parameters.h"
 #include "softbody_sim/constraints/obstacle.h"
 
 namespace softbody {

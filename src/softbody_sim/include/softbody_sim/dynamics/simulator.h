@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "softbody_common/edit_history.h"
-#include "softbody_common/types.h"
+#include "softbody_common/cutting/edit_history.h"
+#include "softbody_common/geometry/types.h"
 #include "softbody_sim/constraints/contact_patch.h"
 #include "softbody_sim/constraints/surroundings.h"
 #include "softbody_sim/dynamics/simulator_config.h"

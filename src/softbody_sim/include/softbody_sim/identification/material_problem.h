@@ -3,7 +3,7 @@
 #include <limits>
 #include <vector>
 
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/types.h"
 #include "softbody_sim/constraints/surroundings.h"
 #include "softbody_sim/dynamics/simulator_config.h"
 #include "softbody_sim/object/material.h"

@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/types.h"
 #include "softbody_sim/interpolation/tet_binding.h"
 #include "softbody_sim/interpolation/tiled_weights.h"
 

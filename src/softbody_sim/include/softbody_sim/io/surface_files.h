@@ -5,8 +5,8 @@
 
 #include "softbody_common/files/input_file.h"
 #include "softbody_common/files/obj_materials.h"
+#include "softbody_common/geometry/types.h"
 #include "softbody_common/images/vertex_colors.h"
-#include "softbody_common/types.h"
 #include "softbody_sim/io/warnings.h"
 
 namespace softbody {

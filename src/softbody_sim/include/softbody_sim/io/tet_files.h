@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/types.h"
 #include "softbody_sim/io/warnings.h"
 
 namespace softbody {

@@ -2,7 +2,7 @@
 
 #include <functional>
 
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/types.h"
 #include "softbody_sim/io/warnings.h"
 #include "softbody_sim/object/material.h"
 #include "softbody_sim/object/object_description.h"

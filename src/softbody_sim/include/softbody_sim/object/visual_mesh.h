@@ -1,6 +1,6 @@
 #pragma once
 
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/types.h"
 #include "softbody_sim/io/warnings.h"
 #include "softbody_sim/object/object_description.h"
 

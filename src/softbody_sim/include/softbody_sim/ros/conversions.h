@@ -5,7 +5,7 @@
 #include <softbody_msgs/SetObstacle.h>
 #include <visualization_msgs/Marker.h>
 
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/types.h"
 #include "softbody_sim/constraints/obstacle_description.h"
 #include "softbody_sim/object/pin_region.h"
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/types.h"
 #include "softbody_sim/surroundings/frame_lookup.h"
 #include "softbody_sim/surroundings/lasting_fault.h"
 

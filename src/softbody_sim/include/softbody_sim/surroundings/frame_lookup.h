@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/types.h"
 
 namespace softbody {
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/types.h"
 #include "softbody_sim/constraints/surroundings.h"
 #include "softbody_sim/object/pin_region.h"
 #include "softbody_sim/surroundings/body_surface.h"

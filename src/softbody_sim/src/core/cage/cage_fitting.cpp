@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "cage/half_spaces.h"
-#include "softbody_common/tet_geometry.h"
+#include "softbody_common/geometry/tet_geometry.h"
 #include "softbody_sim/mean_value/mean_value_coordinates.h"
 #include "softbody_sim/surface_mesh/closest_point.h"
 #include "surface_mesh/self_intersection.h"

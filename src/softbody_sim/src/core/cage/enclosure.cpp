@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "softbody_common/tet_geometry.h"
-#include "softbody_common/tet_locator.h"
+#include "softbody_common/geometry/tet_geometry.h"
+#include "softbody_common/geometry/tet_locator.h"
 #include "softbody_sim/surface_mesh/closest_point.h"
 #include "surface_mesh/surface_repair.h"
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/types.h"
 
 namespace softbody {
 

@@ -14,7 +14,7 @@
 #include "cage/enclosure.h"
 #include "cage/progressive_hull.h"
 #include "cage/tet_mesher.h"
-#include "softbody_common/tet_geometry.h"
+#include "softbody_common/geometry/tet_geometry.h"
 #include "surface_mesh/self_intersection.h"
 #include "surface_mesh/surface_repair.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/types.h"
 
 namespace softbody {
 

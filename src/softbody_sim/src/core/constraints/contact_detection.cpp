@@ -7,7 +7,7 @@
 #include <tuple>
 #include <utility>
 
-#include "softbody_common/tet_geometry.h"
+#include "softbody_common/geometry/tet_geometry.h"
 
 namespace softbody {
 namespace {

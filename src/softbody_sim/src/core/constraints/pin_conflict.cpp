@@ -1,10 +1,10 @@
-#include "softbody_sim/constraints/pin_conflict.h"
+#include "constraints/pin_conflict.h"
 
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
-#include "softbody_common/tet_geometry.h"
+#include "softbody_common/geometry/tet_geometry.h"
 
 namespace softbody {
 namespace {

@@ -7,7 +7,7 @@
 #include "constraints/box_grid.h"
 #include "constraints/clearance.h"
 #include "constraints/contact_detection.h"
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/types.h"
 
 namespace softbody {
 

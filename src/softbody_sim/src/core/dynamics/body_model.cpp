@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "softbody_common/tet_geometry.h"
+#include "softbody_common/geometry/tet_geometry.h"
 #include "time_step/fem_solver.h"
 #include "time_step/prediction_solver.h"
 #include "time_step/projective_dynamics.h"

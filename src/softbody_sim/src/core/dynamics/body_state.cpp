@@ -2,8 +2,8 @@
 
 #include <utility>
 
-#include "softbody_common/rigid_fit.h"
-#include "softbody_common/tet_locator.h"
+#include "softbody_common/geometry/rigid_fit.h"
+#include "softbody_common/geometry/tet_locator.h"
 
 namespace softbody {
 namespace {

@@ -6,7 +6,7 @@
 #include "cutting/volume/tet_edit.h"
 #include "estimation/load_estimate.h"
 #include "estimation/shape_memory.h"
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/types.h"
 #include "softbody_sim/constraints/surroundings.h"
 #include "softbody_sim/time_step/step_report.h"
 

@@ -1,6 +1,6 @@
 #include "dynamics/direct_deformation.h"
 
-#include "softbody_common/tet_geometry.h"
+#include "softbody_common/geometry/tet_geometry.h"
 
 namespace softbody {
 

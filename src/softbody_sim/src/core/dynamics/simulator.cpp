@@ -15,9 +15,9 @@
 #include "dynamics/simulator_implementation.h"
 #include "dynamics/target_validation.h"
 #include "estimation/vertex_deviation.h"
-#include "softbody_common/tet_geometry.h"
-#include "softbody_common/time.h"
-#include "softbody_common/timeline.h"
+#include "softbody_common/geometry/tet_geometry.h"
+#include "softbody_common/time/time.h"
+#include "softbody_common/time/timeline.h"
 
 namespace softbody {
 

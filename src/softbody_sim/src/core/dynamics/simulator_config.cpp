@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "softbody_common/target_limits.h"
+#include "softbody_common/protocol/target_limits.h"
 
 namespace softbody {
 namespace {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "softbody_common/plausibility.h"
-#include "softbody_common/tet_geometry.h"
+#include "softbody_common/geometry/plausibility.h"
+#include "softbody_common/geometry/tet_geometry.h"
 
 namespace softbody {
 namespace {

@@ -1,7 +1,7 @@
 #include "softbody_sim/elasticity/body_mass.h"
 
 #include "elasticity/tet_materials.h"
-#include "softbody_common/tet_geometry.h"
+#include "softbody_common/geometry/tet_geometry.h"
 
 namespace softbody {
 

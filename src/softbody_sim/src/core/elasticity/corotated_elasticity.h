@@ -4,7 +4,7 @@
 
 #include "elasticity/lame_parameters.h"
 #include "elasticity/strain_smoothing.h"
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/types.h"
 #include "tets/tet_matrix.h"
 
 namespace softbody {

@@ -7,7 +7,7 @@
 #include "elasticity/elastic_patches.h"
 #include "elasticity/elasticity_kernel.h"
 #include "simd/rows.h"
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/types.h"
 
 namespace softbody {
 

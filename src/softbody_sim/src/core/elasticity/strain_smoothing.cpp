@@ -6,7 +6,7 @@
 #include <Eigen/SparseCore>
 #include <array>
 
-#include "softbody_common/tet_geometry.h"
+#include "softbody_common/geometry/tet_geometry.h"
 #include "tets/tet_shape.h"
 
 namespace softbody {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "elasticity/lame_parameters.h"
-#include "softbody_common/tet_geometry.h"
+#include "softbody_common/geometry/tet_geometry.h"
 
 namespace softbody {
 namespace {

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "elasticity/strain_smoothing.h"
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/types.h"
 #include "softbody_sim/object/material.h"
 
 namespace softbody {

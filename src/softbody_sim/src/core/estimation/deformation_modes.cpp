@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "fem/fem_elasticity.h"
-#include "softbody_common/tet_geometry.h"
+#include "softbody_common/geometry/tet_geometry.h"
 #include "tets/block_tet_matrix.h"
 
 namespace softbody {

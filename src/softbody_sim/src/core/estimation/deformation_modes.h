@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "elasticity/strain_smoothing.h"
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/types.h"
 
 namespace softbody {
 

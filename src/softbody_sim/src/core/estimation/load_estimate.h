@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "linear_solvers/dense_kernels.h"
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/types.h"
 
 namespace softbody {
 

@@ -7,7 +7,7 @@
 
 #include "estimation/deformation_modes.h"
 #include "estimation/load_field.h"
-#include "softbody_common/tet_geometry.h"
+#include "softbody_common/geometry/tet_geometry.h"
 
 namespace softbody {
 namespace {

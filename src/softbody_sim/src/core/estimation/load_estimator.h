@@ -11,7 +11,7 @@
 #include "estimation/load_estimate.h"
 #include "estimation/turned_modes.h"
 #include "linear_solvers/dense_kernels.h"
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/types.h"
 #include "softbody_sim/constraints/surroundings.h"
 #include "tets/block_tet_matrix.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "linear_solvers/positive_definite_solver.h"
-#include "softbody_common/tet_geometry.h"
+#include "softbody_common/geometry/tet_geometry.h"
 #include "tets/tet_matrix.h"
 #include "tets/tet_shape.h"
 

@@ -5,7 +5,7 @@
 
 #include "elasticity/tet_materials.h"
 #include "estimation/deformation_modes.h"
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/types.h"
 
 namespace softbody {
 

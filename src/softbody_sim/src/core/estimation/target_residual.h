@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/types.h"
 
 namespace softbody {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "estimation/load_estimate.h"
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/types.h"
 
 namespace softbody {
 

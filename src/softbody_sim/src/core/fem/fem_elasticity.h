@@ -6,7 +6,7 @@
 #include "elasticity/strain_smoothing.h"
 #include "fem/edge_springs.h"
 #include "fem/isotropic_energy.h"
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/types.h"
 #include "tets/block_tet_matrix.h"
 
 namespace softbody {

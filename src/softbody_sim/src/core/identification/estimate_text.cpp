@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "softbody_common/time.h"
+#include "softbody_common/time/time.h"
 
 namespace softbody {
 namespace {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "softbody_common/tet_geometry.h"
-#include "softbody_sim/report/mesh_drawing.h"
+#include "softbody_common/geometry/tet_geometry.h"
+#include "softbody_sim/drawing/mesh_drawing.h"
 
 namespace softbody {
 namespace {

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "softbody_common/rigid_fit.h"
-#include "softbody_common/tet_geometry.h"
-#include "softbody_common/time.h"
+#include "softbody_common/geometry/rigid_fit.h"
+#include "softbody_common/geometry/tet_geometry.h"
+#include "softbody_common/time/time.h"
 
 namespace softbody {
 namespace {

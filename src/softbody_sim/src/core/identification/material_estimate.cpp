@@ -7,7 +7,7 @@
 #include "identification/material_fit.h"
 #include "identification/observability.h"
 #include "identification/tet_refinement.h"
-#include "softbody_common/rigid_fit.h"
+#include "softbody_common/geometry/rigid_fit.h"
 #include "softbody_sim/identification/material_estimate.h"
 
 namespace softbody {

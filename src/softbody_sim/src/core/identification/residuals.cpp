@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "softbody_common/rigid_fit.h"
-#include "softbody_common/tet_geometry.h"
+#include "softbody_common/geometry/rigid_fit.h"
+#include "softbody_common/geometry/tet_geometry.h"
 
 namespace softbody {
 

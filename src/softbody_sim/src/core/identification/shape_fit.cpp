@@ -7,7 +7,7 @@
 
 #include "identification/material_fit.h"
 #include "identification/surface_points.h"
-#include "softbody_common/rigid_fit.h"
+#include "softbody_common/geometry/rigid_fit.h"
 
 namespace softbody {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <Eigen/Geometry>
 
-#include "softbody_common/surface_binding.h"
+#include "softbody_common/geometry/surface_binding.h"
 #include "softbody_sim/surface_mesh/closest_point.h"
 
 namespace softbody {

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "softbody_common/tet_locator.h"
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/tet_locator.h"
+#include "softbody_common/geometry/types.h"
 
 namespace softbody {
 

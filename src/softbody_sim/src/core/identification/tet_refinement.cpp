@@ -4,8 +4,8 @@
 #include <map>
 #include <utility>
 
-#include "softbody_common/tet_geometry.h"
-#include "softbody_common/tet_locator.h"
+#include "softbody_common/geometry/tet_geometry.h"
+#include "softbody_common/geometry/tet_locator.h"
 
 namespace softbody {
 namespace {

@@ -6,8 +6,8 @@
 #include <map>
 #include <optional>
 
-#include "softbody_common/tet_geometry.h"
-#include "softbody_common/tet_locator.h"
+#include "softbody_common/geometry/tet_geometry.h"
+#include "softbody_common/geometry/tet_locator.h"
 #include "tets/tet_shape.h"
 
 namespace softbody {

@@ -7,7 +7,7 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "softbody_common/tet_locator.h"
+#include "softbody_common/geometry/tet_locator.h"
 #include "softbody_sim/mean_value/mean_value_coordinates.h"
 
 namespace softbody {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "softbody_common/files/text_reader.h"
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/types.h"
 #include "softbody_sim/io/warnings.h"
 
 namespace softbody {

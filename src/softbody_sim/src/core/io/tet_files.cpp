@@ -6,13 +6,13 @@
 #include <stdexcept>
 
 #include "io/msh_file.h"
+#include "io/tet_repair.h"
 #include "io/tetgen_file.h"
 #include "io/veg_file.h"
 #include "io/vtu_file.h"
 #include "softbody_common/files/input_file.h"
 #include "softbody_common/files/staged_output.h"
 #include "softbody_common/files/text_reader.h"
-#include "tets/tet_repair.h"
 
 namespace softbody {
 namespace {

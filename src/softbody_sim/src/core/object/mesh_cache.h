@@ -3,7 +3,7 @@
 #include <functional>
 #include <string>
 
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/types.h"
 #include "softbody_sim/io/warnings.h"
 
 namespace softbody {

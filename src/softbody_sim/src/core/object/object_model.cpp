@@ -13,7 +13,7 @@
 #include "object/mesh_cache.h"
 #include "shells/shell_nesting.h"
 #include "softbody_common/files/input_file.h"
-#include "softbody_common/tet_geometry.h"
+#include "softbody_common/geometry/tet_geometry.h"
 #include "softbody_sim/io/tet_files.h"
 #include "softbody_sim/object/visual_mesh.h"
 #include "surface_mesh/surface_repair.h"

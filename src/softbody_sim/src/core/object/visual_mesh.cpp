@@ -5,7 +5,7 @@
 #include "shells/body_choice.h"
 #include "shells/simplification.h"
 #include "shells/surface_transfer.h"
-#include "softbody_common/tet_geometry.h"
+#include "softbody_common/geometry/tet_geometry.h"
 #include "surface_mesh/surface_repair.h"
 #include "surface_mesh/thickening.h"
 

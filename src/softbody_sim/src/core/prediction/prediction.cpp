@@ -10,7 +10,7 @@
 #include <thread>
 
 #include "prediction/planned_surroundings.h"
-#include "softbody_common/time.h"
+#include "softbody_common/time/time.h"
 
 namespace softbody {
 namespace {

@@ -15,7 +15,7 @@
 #include "report/model_verdict.h"
 #include "softbody_common/files/input_file.h"
 #include "softbody_common/files/staged_output.h"
-#include "softbody_common/tet_geometry.h"
+#include "softbody_common/geometry/tet_geometry.h"
 #include "softbody_sim/io/surface_files.h"
 #include "softbody_sim/io/tet_files.h"
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "softbody_common/tet_geometry.h"
-#include "softbody_sim/report/mesh_drawing.h"
+#include "softbody_common/geometry/tet_geometry.h"
+#include "softbody_sim/drawing/mesh_drawing.h"
 
 namespace softbody {
 namespace {

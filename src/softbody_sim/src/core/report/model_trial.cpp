@@ -9,8 +9,8 @@
 #include <functional>
 #include <numeric>
 
-#include "softbody_common/rasterizer.h"
-#include "softbody_common/tet_geometry.h"
+#include "softbody_common/geometry/tet_geometry.h"
+#include "softbody_common/images/rasterizer.h"
 #include "softbody_sim/cutting/binding/cuttable_surface.h"
 #include "softbody_sim/cutting/patch/cut_shapes.h"
 #include "softbody_sim/dynamics/simulator.h"

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <utility>
 
-#include "cutting/split/manifold_mesh.h"
 #include "shells/connected_groups.h"
+#include "surface_mesh/manifold_mesh.h"
 
 namespace softbody {
 namespace {

@@ -11,8 +11,8 @@ namespace softbody {
 namespace {
 
 using Kernel = CGAL::Simple_cartesian<double>;
-using TriangleList = std::vector<Kernel::Triangle_3>;
-using Primitive = CGAL::AABB_triangle_primitive<Kernel, TriangleList::const_iterator>;
+using KernelTriangles = std::vector<Kernel::Triangle_3>;
+using Primitive = CGAL::AABB_triangle_primitive<Kernel, KernelTriangles::const_iterator>;
 using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
 
 Kernel::Point_3 toPoint(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
@@ -20,7 +20,7 @@ Kernel::Point_3 toPoint(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}
 }  // namespace
 
 struct ClosestPointQuery::Implementation {
-  TriangleList triangles;
+  KernelTriangles triangles;
   Tree tree;
 };
 

@@ -1,11 +1,11 @@
-#include "softbody_sim/surface_mesh/closest_surface_point.h"
+#include "surface_mesh/closest_surface_point.h"
 
 #include <fmt/format.h>
 
 #include <limits>
 #include <stdexcept>
 
-#include "softbody_common/tet_geometry.h"
+#include "softbody_common/geometry/tet_geometry.h"
 
 namespace softbody {
 namespace {

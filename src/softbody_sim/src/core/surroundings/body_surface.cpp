@@ -6,10 +6,10 @@
 #include <stdexcept>
 #include <utility>
 
-#include "softbody_common/same_matrix.h"
-#include "softbody_common/surface_binding.h"
-#include "softbody_common/tet_geometry.h"
-#include "softbody_common/tet_locator.h"
+#include "softbody_common/geometry/same_matrix.h"
+#include "softbody_common/geometry/surface_binding.h"
+#include "softbody_common/geometry/tet_geometry.h"
+#include "softbody_common/geometry/tet_locator.h"
 #include "softbody_sim/object/vertex_region.h"
 
 namespace softbody {

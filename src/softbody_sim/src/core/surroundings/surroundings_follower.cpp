@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "softbody_common/rigid_fit.h"
-#include "softbody_sim/constraints/pin_conflict.h"
+#include "constraints/pin_conflict.h"
+#include "softbody_common/geometry/rigid_fit.h"
 
 namespace softbody {
 namespace {

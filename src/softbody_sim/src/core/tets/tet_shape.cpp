@@ -4,7 +4,7 @@
 
 #include <stdexcept>
 
-#include "softbody_common/tet_geometry.h"
+#include "softbody_common/geometry/tet_geometry.h"
 
 namespace softbody {
 

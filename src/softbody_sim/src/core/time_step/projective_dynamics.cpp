@@ -5,7 +5,7 @@
 
 #include "elasticity/elastic_blocks.h"
 #include "linear_solvers/global_step_solver.h"
-#include "softbody_common/tet_geometry.h"
+#include "softbody_common/geometry/tet_geometry.h"
 #include "tets/tet_matrix.h"
 #include "time_step/force_balance.h"
 #include "time_step/packed_potential.h"

@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/types.h"
 #include "softbody_sim/time_step/step_report.h"
 
 namespace softbody {

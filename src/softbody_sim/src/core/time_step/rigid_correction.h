@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "simd/rows.h"
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/types.h"
 #include "time_step/incremental_potential.h"
 
 namespace softbody {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/types.h"
 #include "softbody_sim/time_step/step_report.h"
 #include "time_step/incremental_potential.h"
 

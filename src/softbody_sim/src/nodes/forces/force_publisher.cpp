@@ -7,8 +7,8 @@
 #include <boost/make_shared.hpp>
 #include <utility>
 
+#include "softbody_common/protocol/topics.h"
 #include "softbody_common/ros/frame_name.h"
-#include "softbody_common/topics.h"
 #include "softbody_sim/ros/force_messages.h"
 
 namespace softbody {

@@ -1,6 +1,6 @@
 #include "nodes/simulator/reaction_publisher.h"
 
-#include "softbody_common/topics.h"
+#include "softbody_common/protocol/topics.h"
 #include "softbody_sim/ros/force_messages.h"
 
 namespace softbody {

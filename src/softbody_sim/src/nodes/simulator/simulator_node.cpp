@@ -7,10 +7,10 @@
 #include <string>
 #include <utility>
 
+#include "softbody_common/geometry/tet_topology_check.h"
+#include "softbody_common/protocol/topics.h"
 #include "softbody_common/ros/conversions.h"
 #include "softbody_common/ros/frame_name.h"
-#include "softbody_common/tet_topology_check.h"
-#include "softbody_common/topics.h"
 #include "softbody_sim/ros/conversions.h"
 
 namespace softbody {

@@ -20,7 +20,7 @@
 #include "softbody_common/ros/live_parameters.h"
 #include "softbody_common/ros/newest_only.h"
 #include "softbody_common/ros/stamp_gate.h"
-#include "softbody_common/stage_timer.h"
+#include "softbody_common/time/stage_timer.h"
 #include "softbody_sim/dynamics/simulator.h"
 #include "softbody_sim/ros/simulator_options.h"
 

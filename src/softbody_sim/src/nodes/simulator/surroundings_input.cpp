@@ -5,8 +5,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "softbody_common/protocol/topics.h"
 #include "softbody_common/ros/conversions.h"
-#include "softbody_common/topics.h"
 #include "softbody_sim/ros/conversions.h"
 
 namespace softbody {

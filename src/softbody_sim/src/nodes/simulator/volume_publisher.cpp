@@ -6,9 +6,9 @@
 #include <boost/make_shared.hpp>
 #include <utility>
 
+#include "softbody_common/protocol/topics.h"
 #include "softbody_common/ros/conversions.h"
 #include "softbody_common/ros/cut_messages.h"
-#include "softbody_common/topics.h"
 
 namespace softbody {
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "softbody_common/stage_timer.h"
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/types.h"
+#include "softbody_common/time/stage_timer.h"
 #include "softbody_sim/dynamics/simulator.h"
 
 namespace softbody {

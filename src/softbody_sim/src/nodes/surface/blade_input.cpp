@@ -6,10 +6,10 @@
 #include <stdexcept>
 #include <utility>
 
-#include "softbody_common/rigid_fit.h"
+#include "softbody_common/geometry/rigid_fit.h"
+#include "softbody_common/protocol/topics.h"
 #include "softbody_common/ros/conversions.h"
 #include "softbody_common/ros/frame_name.h"
-#include "softbody_common/topics.h"
 
 namespace softbody {
 namespace {

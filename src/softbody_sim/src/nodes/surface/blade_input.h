@@ -8,9 +8,9 @@
 #include <memory>
 #include <optional>
 
+#include "softbody_common/geometry/types.h"
 #include "softbody_common/ros/stamp_gate.h"
 #include "softbody_common/ros/transform_input.h"
-#include "softbody_common/types.h"
 
 namespace softbody {
 

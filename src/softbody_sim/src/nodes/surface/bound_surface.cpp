@@ -2,8 +2,8 @@
 
 #include <boost/make_shared.hpp>
 
+#include "softbody_common/geometry/tet_topology_check.h"
 #include "softbody_common/ros/conversions.h"
-#include "softbody_common/tet_topology_check.h"
 
 namespace softbody {
 

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/types.h"
 #include "softbody_sim/interpolation/visual_surface.h"
 
 namespace softbody {

@@ -5,11 +5,11 @@
 
 #include <boost/make_shared.hpp>
 
+#include "ros/cut_markers.h"
+#include "softbody_common/geometry/surface_binding.h"
+#include "softbody_common/geometry/tet_locator.h"
+#include "softbody_common/protocol/topics.h"
 #include "softbody_common/ros/time.h"
-#include "softbody_common/surface_binding.h"
-#include "softbody_common/tet_locator.h"
-#include "softbody_common/topics.h"
-#include "softbody_sim/ros/cut_markers.h"
 
 namespace softbody {
 namespace {

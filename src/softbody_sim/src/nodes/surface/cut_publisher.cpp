@@ -3,8 +3,8 @@
 #include <boost/make_shared.hpp>
 #include <utility>
 
+#include "softbody_common/protocol/topics.h"
 #include "softbody_common/ros/cut_messages.h"
-#include "softbody_common/topics.h"
 
 namespace softbody {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "softbody_common/geometry/tet_geometry.h"
 #include "softbody_common/ros/time.h"
-#include "softbody_common/tet_geometry.h"
 
 namespace softbody {
 

@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
+#include "softbody_common/geometry/types.h"
 #include "softbody_common/ros/node_diagnostics.h"
-#include "softbody_common/types.h"
 #include "softbody_sim/ros/surface_options.h"
 
 namespace softbody {

@@ -5,9 +5,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include "softbody_common/geometry/tet_topology_check.h"
+#include "softbody_common/protocol/topics.h"
 #include "softbody_common/ros/conversions.h"
-#include "softbody_common/tet_topology_check.h"
-#include "softbody_common/topics.h"
 
 namespace softbody {
 namespace {

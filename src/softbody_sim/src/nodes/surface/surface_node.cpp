@@ -2,9 +2,9 @@
 
 #include <utility>
 
+#include "softbody_common/protocol/topics.h"
 #include "softbody_common/ros/conversions.h"
 #include "softbody_common/ros/cut_messages.h"
-#include "softbody_common/topics.h"
 
 namespace softbody {
 namespace {

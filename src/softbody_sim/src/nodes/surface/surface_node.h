@@ -16,10 +16,10 @@
 #include "nodes/surface/surface_editor.h"
 #include "nodes/surface/surface_publisher.h"
 #include "nodes/surface/surface_queries.h"
+#include "softbody_common/geometry/types.h"
 #include "softbody_common/ros/live_parameters.h"
 #include "softbody_common/ros/stamp_gate.h"
-#include "softbody_common/stage_timer.h"
-#include "softbody_common/types.h"
+#include "softbody_common/time/stage_timer.h"
 #include "softbody_sim/ros/surface_options.h"
 
 namespace softbody {

@@ -6,10 +6,10 @@
 
 #include <boost/make_shared.hpp>
 
+#include "ros/planner_messages.h"
+#include "softbody_common/protocol/topics.h"
 #include "softbody_common/ros/conversions.h"
-#include "softbody_common/topics.h"
 #include "softbody_sim/ros/conversions.h"
-#include "softbody_sim/ros/planner_messages.h"
 
 namespace softbody {
 

@@ -5,8 +5,8 @@
 
 #include <vector>
 
-#include "softbody_common/stage_timer.h"
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/types.h"
+#include "softbody_common/time/stage_timer.h"
 
 namespace softbody {
 

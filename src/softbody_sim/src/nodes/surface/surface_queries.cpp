@@ -8,11 +8,11 @@
 #include <utility>
 
 #include "softbody_common/files/staged_output.h"
-#include "softbody_common/plausibility.h"
+#include "softbody_common/geometry/plausibility.h"
 #include "softbody_common/ros/conversions.h"
 #include "softbody_common/ros/frame_name.h"
 #include "softbody_sim/io/surface_files.h"
-#include "softbody_sim/surface_mesh/closest_surface_point.h"
+#include "surface_mesh/closest_surface_point.h"
 
 namespace softbody {
 namespace {

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "nodes/frame_poses.h"
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/types.h"
 
 namespace softbody {
 

@@ -2,8 +2,8 @@
 
 #include <stdexcept>
 
+#include "softbody_common/protocol/topics.h"
 #include "softbody_common/ros/conversions.h"
-#include "softbody_common/topics.h"
 
 namespace softbody {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "cutting/fixtures/surface_meshes.h"
 #include "cutting/fixtures/visual_sponge.h"
-#include "softbody_common/rigid_fit.h"
+#include "softbody_common/geometry/rigid_fit.h"
 #include "softbody_sim/cutting/binding/cuttable_surface.h"
 
 namespace softbody {

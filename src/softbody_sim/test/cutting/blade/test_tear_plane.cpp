@@ -8,8 +8,8 @@
 #include "cutting/blade/tearing.h"
 #include "fixtures/box_meshes.h"
 #include "fixtures/test_meshes.h"
-#include "softbody_common/rigid_fit.h"
-#include "softbody_common/tet_geometry.h"
+#include "softbody_common/geometry/rigid_fit.h"
+#include "softbody_common/geometry/tet_geometry.h"
 
 namespace softbody {
 namespace {

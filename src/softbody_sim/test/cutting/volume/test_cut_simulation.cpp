@@ -4,9 +4,9 @@
 #include <memory>
 
 #include "cutting/fixtures/visual_sponge.h"
-#include "softbody_common/rigid_fit.h"
-#include "softbody_common/tet_geometry.h"
-#include "softbody_common/tet_locator.h"
+#include "softbody_common/geometry/rigid_fit.h"
+#include "softbody_common/geometry/tet_geometry.h"
+#include "softbody_common/geometry/tet_locator.h"
 #include "softbody_sim/dynamics/simulator.h"
 
 namespace softbody {

@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "softbody_common/pinhole.h"
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/pinhole.h"
+#include "softbody_common/geometry/types.h"
 
 namespace softbody {
 

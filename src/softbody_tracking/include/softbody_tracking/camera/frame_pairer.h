@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "softbody_common/parameters/parameter_table.h"
-#include "softbody_common/timeline.h"
+#include "softbody_common/time/timeline.h"
 
 namespace softbody {
 

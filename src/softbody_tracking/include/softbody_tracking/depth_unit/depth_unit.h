@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/types.h"
 #include "softbody_tracking/camera/camera_ingest.h"
 #include "softbody_tracking/tracker_config.h"
 

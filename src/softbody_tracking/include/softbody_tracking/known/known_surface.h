@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/types.h"
 #include "softbody_tracking/rgbd_frame.h"
 
 namespace softbody {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "softbody_common/parameters/parameter_table.h"
-#include "softbody_common/stage_timer.h"
+#include "softbody_common/time/stage_timer.h"
 #include "softbody_tracking/rgbd_frame.h"
 #include "softbody_tracking/tool/tool_description.h"
 

@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "softbody_common/stage_timer.h"
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/types.h"
+#include "softbody_common/time/stage_timer.h"
 #include "softbody_tracking/rgbd_frame.h"
 #include "softbody_tracking/tracker/tracking_result.h"
 #include "softbody_tracking/tracker_config.h"

@@ -2,7 +2,7 @@
 
 #include <Eigen/Geometry>
 
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/types.h"
 #include "softbody_tracking/rgbd_frame.h"
 
 namespace softbody {

@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "softbody_common/rigid_fit.h"
-#include "softbody_common/tet_geometry.h"
+#include "softbody_common/geometry/rigid_fit.h"
+#include "softbody_common/geometry/tet_geometry.h"
 #include "statistics/median.h"
 
 namespace softbody {

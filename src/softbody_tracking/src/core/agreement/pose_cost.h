@@ -3,8 +3,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
-#include "softbody_common/rasterizer.h"
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/types.h"
+#include "softbody_common/images/rasterizer.h"
 #include "softbody_tracking/rgbd_frame.h"
 
 namespace softbody {

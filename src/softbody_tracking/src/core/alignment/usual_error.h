@@ -1,7 +1,7 @@
 #pragma once
 
 #include "prediction/memory.h"
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/types.h"
 
 namespace softbody {
 

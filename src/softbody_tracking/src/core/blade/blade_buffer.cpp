@@ -5,7 +5,7 @@
 #include <iterator>
 #include <utility>
 
-#include "softbody_common/rigid_fit.h"
+#include "softbody_common/geometry/rigid_fit.h"
 
 namespace softbody {
 namespace {

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/types.h"
 #include "softbody_tracking/tool/tool_mask.h"
 
 namespace softbody {

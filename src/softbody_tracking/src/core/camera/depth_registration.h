@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <opencv2/core.hpp>
 
-#include "softbody_common/pinhole.h"
+#include "softbody_common/geometry/pinhole.h"
 
 namespace softbody {
 

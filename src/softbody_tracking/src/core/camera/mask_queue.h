@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/types.h"
 
 namespace softbody {
 

@@ -1,4 +1,4 @@
-#include "softbody_tracking/camera/stream_advice.h"
+#include "camera/stream_advice.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

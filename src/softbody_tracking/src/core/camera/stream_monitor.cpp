@@ -1,4 +1,4 @@
-#include "softbody_tracking/camera/stream_monitor.h"
+#include "camera/stream_monitor.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,4 +1,4 @@
-#include "softbody_tracking/camera/sync_monitor.h"
+#include "camera/sync_monitor.h"
 
 #include <algorithm>
 #include <cstdlib>

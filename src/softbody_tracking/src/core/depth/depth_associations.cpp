@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "softbody_common/target_limits.h"
+#include "softbody_common/protocol/target_limits.h"
 #include "statistics/median.h"
 
 namespace softbody {

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "softbody_common/camera_topics.h"
-#include "softbody_common/rigid_fit.h"
+#include "softbody_common/geometry/rigid_fit.h"
+#include "softbody_common/protocol/camera_topics.h"
 #include "softbody_tracking/tracker/body_tracker.h"
 
 namespace softbody {

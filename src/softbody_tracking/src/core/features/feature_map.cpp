@@ -3,7 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 
-#include "softbody_common/surface_binding.h"
+#include "softbody_common/geometry/surface_binding.h"
 
 namespace softbody {
 namespace {

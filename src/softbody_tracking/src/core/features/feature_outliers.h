@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "features/feature_match.h"
-#include "softbody_common/pinhole.h"
+#include "softbody_common/geometry/pinhole.h"
 
 namespace softbody {
 

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "features/feature_matching.h"
-#include "softbody_common/rigid_fit.h"
-#include "softbody_common/tet_geometry.h"
+#include "softbody_common/geometry/rigid_fit.h"
+#include "softbody_common/geometry/tet_geometry.h"
 
 namespace softbody {
 namespace {

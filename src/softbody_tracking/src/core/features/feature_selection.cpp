@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "features/feature_spread.h"
-#include "softbody_common/tet_geometry.h"
+#include "softbody_common/geometry/tet_geometry.h"
 
 namespace softbody {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "softbody_common/rigid_fit.h"
-#include "softbody_common/time.h"
+#include "softbody_common/geometry/rigid_fit.h"
+#include "softbody_common/time/time.h"
 
 namespace softbody {
 namespace {

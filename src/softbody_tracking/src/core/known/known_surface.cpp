@@ -6,7 +6,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "agreement/pose_cost.h"
-#include "softbody_common/rasterizer.h"
+#include "softbody_common/images/rasterizer.h"
 
 namespace softbody {
 namespace {

@@ -8,7 +8,7 @@
 #include "labels/depth_evidence.h"
 #include "labels/labels.h"
 #include "labels/sectors.h"
-#include "softbody_common/rasterizer.h"
+#include "softbody_common/images/rasterizer.h"
 #include "softbody_tracking/rgbd_frame.h"
 
 namespace softbody {

@@ -1,4 +1,4 @@
-#include "softbody_tracking/marker_board/marker_board.h"
+#include "marker_board/marker_board.h"
 
 #include <fmt/format.h>
 

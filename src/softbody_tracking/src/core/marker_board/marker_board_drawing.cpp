@@ -1,4 +1,4 @@
-#include "softbody_tracking/marker_board/marker_board_drawing.h"
+#include "marker_board/marker_board_drawing.h"
 
 #include <cairo-pdf.h>
 #include <cairo-svg.h>

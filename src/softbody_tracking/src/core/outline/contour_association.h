@@ -6,8 +6,8 @@
 
 #include "outline/contour_posterior.h"
 #include "prediction/association.h"
-#include "softbody_common/pinhole.h"
-#include "softbody_common/rasterizer.h"
+#include "softbody_common/geometry/pinhole.h"
+#include "softbody_common/images/rasterizer.h"
 
 namespace softbody {
 

@@ -7,8 +7,8 @@
 
 #include "agreement/pose_cost.h"
 #include "agreement/subsampled_frame.h"
-#include "softbody_common/rasterizer.h"
-#include "softbody_common/rigid_fit.h"
+#include "softbody_common/geometry/rigid_fit.h"
+#include "softbody_common/images/rasterizer.h"
 
 namespace softbody {
 namespace {

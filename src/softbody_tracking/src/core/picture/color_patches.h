@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "picture/baked_picture.h"
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/types.h"
 #include "softbody_tracking/rgbd_frame.h"
 
 namespace softbody {

@@ -7,9 +7,9 @@
 
 #include "prediction/raster_memory.h"
 #include "prediction/surface_model.h"
-#include "softbody_common/pinhole.h"
-#include "softbody_common/rasterizer.h"
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/pinhole.h"
+#include "softbody_common/geometry/types.h"
+#include "softbody_common/images/rasterizer.h"
 
 namespace softbody {
 

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "softbody_common/rasterizer.h"
+#include "softbody_common/images/rasterizer.h"
 
 namespace softbody {
 

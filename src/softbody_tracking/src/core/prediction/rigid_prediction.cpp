@@ -1,7 +1,7 @@
 #include "prediction/rigid_prediction.h"
 
-#include "softbody_common/rigid_fit.h"
-#include "softbody_common/time.h"
+#include "softbody_common/geometry/rigid_fit.h"
+#include "softbody_common/time/time.h"
 
 namespace softbody {
 namespace {

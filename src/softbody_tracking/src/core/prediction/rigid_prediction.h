@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "prediction/tracking_signal.h"
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/types.h"
 
 namespace softbody {
 

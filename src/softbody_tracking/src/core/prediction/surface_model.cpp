@@ -3,9 +3,9 @@
 #include <Eigen/Dense>
 #include <algorithm>
 
-#include "softbody_common/surface_binding.h"
-#include "softbody_common/tet_geometry.h"
-#include "softbody_common/tet_locator.h"
+#include "softbody_common/geometry/surface_binding.h"
+#include "softbody_common/geometry/tet_geometry.h"
+#include "softbody_common/geometry/tet_locator.h"
 
 namespace softbody {
 

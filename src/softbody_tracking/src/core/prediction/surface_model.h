@@ -6,8 +6,8 @@
 #include <set>
 #include <vector>
 
-#include "softbody_common/rasterizer.h"
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/types.h"
+#include "softbody_common/images/rasterizer.h"
 
 namespace softbody {
 

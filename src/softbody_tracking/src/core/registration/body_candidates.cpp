@@ -8,7 +8,7 @@
 #include <random>
 
 #include "agreement/pose_cost.h"
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/types.h"
 
 namespace softbody {
 namespace {

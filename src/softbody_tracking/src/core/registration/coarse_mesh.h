@@ -1,7 +1,7 @@
 #pragma once
 
 #include "picture/baked_picture.h"
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/types.h"
 
 namespace softbody {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "softbody_common/rigid_fit.h"
+#include "softbody_common/geometry/rigid_fit.h"
 
 namespace softbody {
 namespace {

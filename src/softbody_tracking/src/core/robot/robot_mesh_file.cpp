@@ -1,4 +1,4 @@
-#include "softbody_tracking/robot/robot_mesh_file.h"
+#include "robot/robot_mesh_file.h"
 
 #include <assimp/config.h>
 #include <assimp/postprocess.h>

@@ -1,7 +1,7 @@
 #include "softbody_tracking/robot/robot_surfaces.h"
 
-#include "softbody_common/rigid_fit.h"
-#include "softbody_tracking/robot/robot_view.h"
+#include "robot/robot_view.h"
+#include "softbody_common/geometry/rigid_fit.h"
 
 namespace softbody {
 

@@ -1,4 +1,4 @@
-#include "softbody_tracking/robot/robot_view.h"
+#include "robot/robot_view.h"
 
 #include <Eigen/Dense>
 #include <algorithm>

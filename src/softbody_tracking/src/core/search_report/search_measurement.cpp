@@ -14,7 +14,7 @@
 #include "registration/body_candidates.h"
 #include "registration/coarse_to_fine_search.h"
 #include "registration/search_anywhere.h"
-#include "softbody_common/rigid_fit.h"
+#include "softbody_common/geometry/rigid_fit.h"
 
 namespace softbody {
 namespace {

@@ -6,7 +6,7 @@
 #include "registration/coarse_mesh.h"
 #include "registration/found_pose.h"
 #include "registration/rough_pose.h"
-#include "softbody_tracking/search_report/search_report.h"
+#include "search_report/search_report.h"
 
 namespace softbody {
 

@@ -1,4 +1,4 @@
-#include "softbody_tracking/search_report/search_report.h"
+#include "search_report/search_report.h"
 
 #include "registration/search_anywhere.h"
 #include "registration/search_near_pose.h"

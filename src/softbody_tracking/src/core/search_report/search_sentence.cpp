@@ -1,4 +1,4 @@
-#include "softbody_tracking/search_report/search_sentence.h"
+#include "search_report/search_sentence.h"
 
 #include <fmt/format.h>
 

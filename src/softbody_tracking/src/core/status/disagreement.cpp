@@ -7,7 +7,7 @@
 
 #include "prediction/memory.h"
 #include "prediction/place_deviation.h"
-#include "softbody_common/time.h"
+#include "softbody_common/time/time.h"
 #include "statistics/median.h"
 
 namespace softbody {

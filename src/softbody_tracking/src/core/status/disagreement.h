@@ -7,7 +7,7 @@
 #include "labels/labels.h"
 #include "prediction/association.h"
 #include "prediction/predicted_surface.h"
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/types.h"
 
 namespace softbody {
 

@@ -6,8 +6,8 @@
 #include <set>
 
 #include "prediction/vertex_places.h"
-#include "softbody_common/rigid_fit.h"
-#include "softbody_common/surface_binding.h"
+#include "softbody_common/geometry/rigid_fit.h"
+#include "softbody_common/geometry/surface_binding.h"
 
 namespace softbody {
 namespace {

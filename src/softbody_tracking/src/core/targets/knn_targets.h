@@ -8,7 +8,7 @@
 #include "features/feature_map.h"
 #include "prediction/association.h"
 #include "prediction/predicted_surface.h"
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/types.h"
 #include "softbody_tracking/tracker_config.h"
 
 namespace softbody {

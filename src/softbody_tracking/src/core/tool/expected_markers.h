@@ -3,7 +3,7 @@
 #include <opencv2/core.hpp>
 #include <optional>
 
-#include "softbody_common/pinhole.h"
+#include "softbody_common/geometry/pinhole.h"
 #include "softbody_tracking/tool/tool_description.h"
 #include "tool/pose_motion.h"
 

@@ -2,7 +2,7 @@
 
 #include <Eigen/Geometry>
 
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/types.h"
 #include "softbody_tracking/tool/tool_tracker.h"
 
 namespace softbody {

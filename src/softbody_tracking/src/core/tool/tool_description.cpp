@@ -8,7 +8,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "softbody_common/blade.h"
+#include "softbody_common/cutting/blade.h"
 #include "softbody_common/files/yaml_map_reader.h"
 #include "softbody_tracking/tool/marker_detector.h"
 

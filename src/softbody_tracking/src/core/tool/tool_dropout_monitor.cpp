@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "softbody_common/time.h"
+#include "softbody_common/time/time.h"
 
 namespace softbody {
 namespace {

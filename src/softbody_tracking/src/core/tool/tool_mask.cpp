@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <opencv2/imgproc.hpp>
 
-#include "softbody_common/rigid_fit.h"
+#include "softbody_common/geometry/rigid_fit.h"
 
 namespace softbody {
 namespace {

@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <vector>
 
-#include "softbody_common/pinhole.h"
+#include "softbody_common/geometry/pinhole.h"
 #include "softbody_tracking/rgbd_frame.h"
 #include "softbody_tracking/tool/tool_tracker.h"
 

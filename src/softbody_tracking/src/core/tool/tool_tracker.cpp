@@ -7,7 +7,7 @@
 #include <iterator>
 #include <opencv2/imgproc.hpp>
 
-#include "softbody_common/time.h"
+#include "softbody_common/time/time.h"
 #include "softbody_tracking/tool/marker_detector.h"
 #include "tool/expected_markers.h"
 #include "tool/pose_motion.h"

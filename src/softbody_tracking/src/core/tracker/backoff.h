@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "softbody_common/time.h"
+#include "softbody_common/time/time.h"
 
 namespace softbody {
 

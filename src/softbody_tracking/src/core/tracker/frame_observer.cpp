@@ -6,8 +6,8 @@
 
 #include "alignment/rigid_alignment.h"
 #include "features/feature_weights.h"
-#include "softbody_common/rigid_fit.h"
-#include "softbody_common/time.h"
+#include "softbody_common/geometry/rigid_fit.h"
+#include "softbody_common/time/time.h"
 
 namespace softbody {
 

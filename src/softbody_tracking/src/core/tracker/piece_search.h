@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/types.h"
 #include "tracker/backoff.h"
 #include "tracker/feature_count.h"
 

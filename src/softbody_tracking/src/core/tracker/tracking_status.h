@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/types.h"
 #include "status/disagreement.h"
 #include "tracker/observation.h"
 

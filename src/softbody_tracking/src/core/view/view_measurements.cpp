@@ -1,7 +1,7 @@
 #include "view/view_measurements.h"
 
 #include "outline/crease_associations.h"
-#include "softbody_common/tet_geometry.h"
+#include "softbody_common/geometry/tet_geometry.h"
 
 namespace softbody {
 

@@ -1,9 +1,9 @@
 #include "nodes/camera_ingest/camera_ingest_node.h"
 
+#include "softbody_common/protocol/topics.h"
 #include "softbody_common/ros/conversions.h"
 #include "softbody_common/ros/frame_name.h"
 #include "softbody_common/ros/ros_parameters.h"
-#include "softbody_common/topics.h"
 #include "softbody_tracking/ros/conversions.h"
 
 namespace softbody {

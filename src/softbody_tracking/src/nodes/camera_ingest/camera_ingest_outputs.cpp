@@ -10,12 +10,12 @@
 #include <boost/make_shared.hpp>
 
 #include "ros/image_pixels.h"
+#include "ros/points_marker.h"
+#include "softbody_common/protocol/topics.h"
 #include "softbody_common/ros/camera_messages.h"
 #include "softbody_common/ros/conversions.h"
-#include "softbody_common/topics.h"
 #include "softbody_tracking/camera/point_cloud.h"
 #include "softbody_tracking/ros/conversions.h"
-#include "softbody_tracking/ros/points_marker.h"
 
 namespace softbody {
 namespace {

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "softbody_common/stage_timer.h"
+#include "softbody_common/time/stage_timer.h"
 #include "softbody_tracking/rgbd_frame.h"
 
 namespace softbody {

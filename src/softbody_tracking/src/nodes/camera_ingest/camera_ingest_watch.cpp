@@ -7,8 +7,8 @@
 #include <cmath>
 #include <utility>
 
+#include "camera/stream_advice.h"
 #include "softbody_common/ros/conversions.h"
-#include "softbody_tracking/camera/stream_advice.h"
 #include "softbody_tracking/ros/conversions.h"
 
 namespace softbody {

@@ -9,12 +9,12 @@
 #include <string>
 #include <vector>
 
+#include "camera/stream_monitor.h"
+#include "camera/sync_monitor.h"
 #include "nodes/frame_watchdog.h"
 #include "nodes/throttled_log.h"
 #include "softbody_common/ros/node_diagnostics.h"
 #include "softbody_tracking/camera/frame_pairer.h"
-#include "softbody_tracking/camera/stream_monitor.h"
-#include "softbody_tracking/camera/sync_monitor.h"
 #include "softbody_tracking/ros/node_options.h"
 
 namespace softbody {

@@ -8,8 +8,8 @@
 #include <string>
 #include <utility>
 
+#include "softbody_common/protocol/topics.h"
 #include "softbody_common/ros/conversions.h"
-#include "softbody_common/topics.h"
 
 namespace softbody {
 namespace {

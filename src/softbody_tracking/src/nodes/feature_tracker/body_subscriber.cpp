@@ -4,9 +4,9 @@
 #include <string>
 #include <utility>
 
+#include "softbody_common/protocol/topics.h"
 #include "softbody_common/ros/conversions.h"
 #include "softbody_common/ros/frame_name.h"
-#include "softbody_common/topics.h"
 
 namespace softbody {
 namespace {

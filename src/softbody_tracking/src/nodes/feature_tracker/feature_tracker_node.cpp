@@ -4,11 +4,11 @@
 #include <utility>
 
 #include "softbody_common/images/object_texture.h"
+#include "softbody_common/protocol/topics.h"
+#include "softbody_common/protocol/tracking_state.h"
 #include "softbody_common/ros/conversions.h"
 #include "softbody_common/ros/frame_name.h"
 #include "softbody_common/ros/ros_parameters.h"
-#include "softbody_common/topics.h"
-#include "softbody_common/tracking_state.h"
 
 namespace softbody {
 namespace {

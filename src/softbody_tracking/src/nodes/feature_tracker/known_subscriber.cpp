@@ -5,8 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "softbody_common/protocol/topics.h"
 #include "softbody_common/ros/conversions.h"
-#include "softbody_common/topics.h"
 
 namespace softbody {
 namespace {

@@ -4,8 +4,8 @@
 #include <string>
 #include <utility>
 
+#include "softbody_common/protocol/topics.h"
 #include "softbody_common/ros/conversions.h"
-#include "softbody_common/topics.h"
 #include "softbody_tracking/ros/conversions.h"
 
 namespace softbody {

@@ -8,7 +8,7 @@
 #include <Eigen/Geometry>
 #include <string>
 
-#include "softbody_common/stage_timer.h"
+#include "softbody_common/time/stage_timer.h"
 #include "softbody_tracking/tracker/tracking_result.h"
 
 namespace softbody {

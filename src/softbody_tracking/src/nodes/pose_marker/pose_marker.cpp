@@ -3,9 +3,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include "ros/pose_marker_message.h"
 #include "softbody_common/ros/conversions.h"
 #include "softbody_common/ros/geometry_messages.h"
-#include "softbody_tracking/ros/pose_marker_message.h"
 
 namespace softbody {
 namespace {

@@ -5,10 +5,10 @@
 
 #include <stdexcept>
 
+#include "softbody_common/protocol/topics.h"
 #include "softbody_common/ros/frame_name.h"
 #include "softbody_common/ros/geometry_messages.h"
 #include "softbody_common/ros/ros_parameters.h"
-#include "softbody_common/topics.h"
 #include "softbody_tracking/ros/node_options.h"
 
 namespace softbody {

@@ -8,8 +8,8 @@
 #include <boost/make_shared.hpp>
 #include <utility>
 
+#include "softbody_common/protocol/topics.h"
 #include "softbody_common/ros/conversions.h"
-#include "softbody_common/topics.h"
 #include "softbody_tracking/ros/tool_messages.h"
 
 namespace softbody {

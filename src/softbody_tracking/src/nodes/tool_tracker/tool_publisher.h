@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "softbody_common/stage_timer.h"
-#include "softbody_tracking/ros/blade_trail.h"
+#include "ros/blade_trail.h"
+#include "softbody_common/time/stage_timer.h"
 #include "softbody_tracking/tool/tool_tracker.h"
 
 namespace softbody {

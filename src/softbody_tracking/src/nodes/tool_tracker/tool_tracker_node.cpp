@@ -4,9 +4,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include "softbody_common/protocol/topics.h"
 #include "softbody_common/ros/frame_name.h"
 #include "softbody_common/ros/ros_parameters.h"
-#include "softbody_common/topics.h"
 #include "softbody_tracking/tool/marker_absence.h"
 
 namespace softbody {

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "softbody_common/files/input_file.h"
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/types.h"
 #include "softbody_virtual_camera/textures/uv_texture.h"
 
 namespace softbody::virtual_camera {

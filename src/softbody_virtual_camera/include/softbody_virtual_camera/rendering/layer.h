@@ -3,7 +3,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "softbody_common/pinhole.h"
+#include "softbody_common/geometry/pinhole.h"
 #include "softbody_virtual_camera/rendering/corner_shading.h"
 #include "softbody_virtual_camera/rendering/visibility_buffer.h"
 #include "softbody_virtual_camera/scenes/scene.h"

@@ -4,8 +4,8 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "softbody_common/pinhole.h"
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/pinhole.h"
+#include "softbody_common/geometry/types.h"
 
 namespace softbody::virtual_camera {
 

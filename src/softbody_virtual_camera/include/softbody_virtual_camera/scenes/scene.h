@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/types.h"
 #include "softbody_virtual_camera/bodies/body.h"
 #include "softbody_virtual_camera/scenes/robot.h"
 #include "softbody_virtual_camera/textures/texture.h"

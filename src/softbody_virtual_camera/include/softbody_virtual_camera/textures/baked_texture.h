@@ -4,7 +4,7 @@
 #include <opencv2/core/hal/intrin.hpp>
 #include <vector>
 
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/types.h"
 #include "softbody_virtual_camera/textures/texture.h"
 #include "softbody_virtual_camera/textures/uv_texture.h"
 

@@ -1,6 +1,6 @@
 #include "bodies/mesh_builder.h"
 
-#include "softbody_common/tet_geometry.h"
+#include "softbody_common/geometry/tet_geometry.h"
 
 namespace softbody::virtual_camera {
 

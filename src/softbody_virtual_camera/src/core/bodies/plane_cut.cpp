@@ -1,4 +1,4 @@
-#include "softbody_virtual_camera/bodies/plane_cut.h"
+#include "bodies/plane_cut.h"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@
 #include <stdexcept>
 
 #include "bodies/mesh_builder.h"
-#include "softbody_virtual_camera/bodies/polygon.h"
+#include "bodies/polygon.h"
 #include "softbody_virtual_camera/bodies/shapes.h"
 
 namespace softbody::virtual_camera {

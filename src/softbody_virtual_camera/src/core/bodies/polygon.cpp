@@ -1,4 +1,4 @@
-#include "softbody_virtual_camera/bodies/polygon.h"
+#include "bodies/polygon.h"
 
 #include <Eigen/Dense>
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "softbody_virtual_camera/camera/camera_motion.h"
+#include "camera/camera_motion.h"
 
 #include <fmt/format.h>
 

@@ -6,10 +6,10 @@
 #include <optional>
 #include <stdexcept>
 
+#include "camera/camera_motion.h"
+#include "catalog/make_scene.h"
 #include "softbody_sim/object/object_description.h"
 #include "softbody_virtual_camera/bodies/body.h"
-#include "softbody_virtual_camera/camera/camera_motion.h"
-#include "softbody_virtual_camera/catalog/make_scene.h"
 
 namespace softbody::virtual_camera {
 namespace {

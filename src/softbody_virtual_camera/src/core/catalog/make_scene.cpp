@@ -1,4 +1,4 @@
-#include "softbody_virtual_camera/catalog/make_scene.h"
+#include "catalog/make_scene.h"
 
 #include <fmt/format.h>
 
@@ -22,7 +22,7 @@
 #include "scenes/plays.h"
 #include "scenes/plays_with_hands.h"
 #include "scenes/tear_scene.h"
-#include "softbody_virtual_camera/textures/body_paint.h"
+#include "textures/body_paint.h"
 
 namespace softbody::virtual_camera {
 namespace {

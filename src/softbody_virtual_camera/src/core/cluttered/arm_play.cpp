@@ -3,9 +3,9 @@
 #include <Eigen/Dense>
 
 #include "cluttered/draws.h"
+#include "motion/deformations.h"
+#include "motion/motion_profiles.h"
 #include "softbody_virtual_camera/bodies/shapes.h"
-#include "softbody_virtual_camera/motion/deformations.h"
-#include "softbody_virtual_camera/motion/motion_profiles.h"
 
 namespace softbody::virtual_camera {
 namespace {

@@ -5,10 +5,10 @@
 #include <stdexcept>
 
 #include "cluttered/draws.h"
+#include "motion/deformations.h"
+#include "motion/motion_profiles.h"
 #include "softbody_virtual_camera/bodies/shapes.h"
-#include "softbody_virtual_camera/motion/deformations.h"
-#include "softbody_virtual_camera/motion/motion_profiles.h"
-#include "softbody_virtual_camera/textures/body_paint.h"
+#include "textures/body_paint.h"
 
 namespace softbody::virtual_camera {
 namespace {

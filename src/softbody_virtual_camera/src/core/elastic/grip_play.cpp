@@ -7,7 +7,7 @@
 
 #include "elastic/embedded_body.h"
 #include "hands/fist.h"
-#include "softbody_virtual_camera/motion/motion_profiles.h"
+#include "motion/motion_profiles.h"
 #include "solid/held_solid.h"
 #include "solid/key_states.h"
 

@@ -10,8 +10,8 @@
 
 #include "elastic/embedded_body.h"
 #include "elastic/holders.h"
+#include "motion/motion_profiles.h"
 #include "softbody_virtual_camera/bodies/shapes.h"
-#include "softbody_virtual_camera/motion/motion_profiles.h"
 #include "solid/free_motion.h"
 #include "solid/held_solid.h"
 #include "solid/key_states.h"

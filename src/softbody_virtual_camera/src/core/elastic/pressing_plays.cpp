@@ -5,8 +5,8 @@
 #include "elastic/pressing.h"
 #include "elastic/stamp_play.h"
 #include "elastic/steps.h"
+#include "motion/motion_profiles.h"
 #include "softbody_virtual_camera/bodies/shapes.h"
-#include "softbody_virtual_camera/motion/motion_profiles.h"
 
 namespace softbody::virtual_camera {
 namespace {

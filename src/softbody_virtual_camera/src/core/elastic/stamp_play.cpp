@@ -3,8 +3,8 @@
 #include <Eigen/Dense>
 
 #include "elastic/pressing.h"
+#include "motion/motion_profiles.h"
 #include "softbody_virtual_camera/bodies/shapes.h"
-#include "softbody_virtual_camera/motion/motion_profiles.h"
 
 namespace softbody::virtual_camera {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "softbody_virtual_camera/motion/motion_profiles.h"
+#include "motion/motion_profiles.h"
 
 namespace softbody::virtual_camera {
 

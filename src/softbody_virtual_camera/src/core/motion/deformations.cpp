@@ -1,4 +1,4 @@
-#include "softbody_virtual_camera/motion/deformations.h"
+#include "motion/deformations.h"
 
 #include <Eigen/Geometry>
 #include <cmath>

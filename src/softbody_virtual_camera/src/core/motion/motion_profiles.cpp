@@ -1,4 +1,4 @@
-#include "softbody_virtual_camera/motion/motion_profiles.h"
+#include "motion/motion_profiles.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/types.h"
 #include "softbody_virtual_camera/textures/texture.h"
 
 namespace softbody::virtual_camera {

@@ -3,8 +3,8 @@
 #include <Eigen/Dense>
 #include <cmath>
 
+#include "motion/motion_profiles.h"
 #include "softbody_common/statistics/random.h"
-#include "softbody_virtual_camera/motion/motion_profiles.h"
 
 namespace softbody::virtual_camera {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/types.h"
 
 /// Where the camera is while it records a body at rest. World frame: z is up, the body lies at the origin.
 namespace softbody::virtual_camera {

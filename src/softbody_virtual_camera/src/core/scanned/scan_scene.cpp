@@ -1,4 +1,4 @@
-#include "softbody_virtual_camera/scanned/scan_scene.h"
+#include "scanned/scan_scene.h"
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -11,7 +11,7 @@
 #include "scenes/body_frame.h"
 #include "softbody_common/statistics/random.h"
 #include "softbody_virtual_camera/bodies/shapes.h"
-#include "softbody_virtual_camera/textures/body_paint.h"
+#include "textures/body_paint.h"
 
 namespace softbody::virtual_camera {
 namespace {

@@ -6,9 +6,9 @@
 #include <map>
 #include <numeric>
 
+#include "motion/motion_profiles.h"
 #include "scenes/strokes.h"
 #include "softbody_virtual_camera/bodies/shapes.h"
-#include "softbody_virtual_camera/motion/motion_profiles.h"
 
 namespace softbody::virtual_camera {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "scenes/stage.h"
-#include "softbody_virtual_camera/scenes/tool.h"
+#include "scenes/tool.h"
 
 /// The scenes in which a blade cuts the body.
 namespace softbody::virtual_camera {

@@ -2,10 +2,10 @@
 
 #include <Eigen/Dense>
 
+#include "motion/deformations.h"
+#include "motion/motion_profiles.h"
 #include "scenes/gripper.h"
 #include "softbody_virtual_camera/bodies/shapes.h"
-#include "softbody_virtual_camera/motion/deformations.h"
-#include "softbody_virtual_camera/motion/motion_profiles.h"
 
 namespace softbody::virtual_camera {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "softbody_virtual_camera/motion/deformations.h"
-#include "softbody_virtual_camera/motion/motion_profiles.h"
+#include "motion/deformations.h"
+#include "motion/motion_profiles.h"
 
 namespace softbody::virtual_camera {
 namespace {

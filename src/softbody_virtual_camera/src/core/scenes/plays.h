@@ -1,7 +1,7 @@
 #pragma once
 
+#include "motion/motion_profiles.h"
 #include "scenes/stage.h"
-#include "softbody_virtual_camera/motion/motion_profiles.h"
 
 /// The motions of the scenes. They use only the body's rest mesh: x is its length, z points up.
 namespace softbody::virtual_camera {

@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "hands/hand.h"
+#include "motion/deformations.h"
+#include "motion/motion_profiles.h"
 #include "softbody_virtual_camera/bodies/shapes.h"
-#include "softbody_virtual_camera/motion/deformations.h"
-#include "softbody_virtual_camera/motion/motion_profiles.h"
-#include "softbody_virtual_camera/textures/body_paint.h"
+#include "textures/body_paint.h"
 
 namespace softbody::virtual_camera {
 namespace {

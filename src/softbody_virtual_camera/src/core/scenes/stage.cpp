@@ -6,7 +6,7 @@
 
 #include "softbody_common/statistics/random.h"
 #include "softbody_virtual_camera/bodies/shapes.h"
-#include "softbody_virtual_camera/textures/body_paint.h"
+#include "textures/body_paint.h"
 
 namespace softbody::virtual_camera {
 namespace {

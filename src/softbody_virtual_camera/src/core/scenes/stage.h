@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "softbody_virtual_camera/scenes/scene.h"
-#include "softbody_virtual_camera/textures/body_paint.h"
+#include "textures/body_paint.h"
 
 /// World frame of the scenes: origin on the table below the body, z up. The camera looks along +y and down.
 namespace softbody::virtual_camera {

@@ -5,8 +5,8 @@
 #include <Eigen/Dense>
 #include <stdexcept>
 
+#include "motion/motion_profiles.h"
 #include "softbody_virtual_camera/bodies/shapes.h"
-#include "softbody_virtual_camera/motion/motion_profiles.h"
 
 namespace softbody::virtual_camera {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "softbody_virtual_camera/bodies/plane_cut.h"
-#include "softbody_virtual_camera/scenes/tool.h"
+#include "bodies/plane_cut.h"
+#include "scenes/tool.h"
 
 namespace softbody::virtual_camera {
 

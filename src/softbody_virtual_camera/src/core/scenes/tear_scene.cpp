@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numeric>
 
-#include "softbody_virtual_camera/bodies/plane_cut.h"
+#include "bodies/plane_cut.h"
+#include "motion/motion_profiles.h"
 #include "softbody_virtual_camera/bodies/shapes.h"
-#include "softbody_virtual_camera/motion/motion_profiles.h"
 
 namespace softbody::virtual_camera {
 namespace {

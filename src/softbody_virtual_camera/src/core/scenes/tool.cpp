@@ -1,4 +1,4 @@
-#include "softbody_virtual_camera/scenes/tool.h"
+#include "scenes/tool.h"
 
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>

@@ -1,4 +1,4 @@
-#include "softbody_virtual_camera/textures/body_paint.h"
+#include "textures/body_paint.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "softbody_virtual_camera/textures/painted_object.h"
+#include "textures/painted_object.h"
 
 #include <algorithm>
 #include <cmath>

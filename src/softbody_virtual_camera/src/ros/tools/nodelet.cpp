@@ -1,7 +1,7 @@
 #include <pluginlib/class_list_macros.hpp>
 
+#include "ros/node.h"
 #include "softbody_common/ros/node_nodelet.h"
-#include "softbody_virtual_camera/ros/node.h"
 
 namespace softbody::virtual_camera {
 

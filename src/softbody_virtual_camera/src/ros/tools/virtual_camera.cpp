@@ -8,15 +8,15 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "camera/camera_motion.h"
+#include "catalog/make_scene.h"
+#include "ros/node.h"
 #include "softbody_common/files/staged_output.h"
-#include "softbody_common/run_tool.h"
+#include "softbody_common/tools/run_tool.h"
 #include "softbody_sim/object/material.h"
-#include "softbody_virtual_camera/camera/camera_motion.h"
-#include "softbody_virtual_camera/catalog/make_scene.h"
 #include "softbody_virtual_camera/ros/bag_writer.h"
-#include "softbody_virtual_camera/ros/node.h"
-#include "softbody_virtual_camera/textures/body_paint.h"
-#include "softbody_virtual_camera/textures/painted_object.h"
+#include "textures/body_paint.h"
+#include "textures/painted_object.h"
 
 namespace softbody::virtual_camera {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "softbody_common/edit_history.h"
+#include "softbody_common/cutting/edit_history.h"
 #include "softbody_sim/cutting/cutting_config.h"
 #include "softbody_sim/interpolation/visual_surface.h"
 

@@ -6,7 +6,7 @@
 
 #include "cutting/binding/surface_history.h"
 #include "cutting/volume/edited_volume.h"
-#include "softbody_common/cut.h"
+#include "softbody_common/cutting/cut.h"
 
 namespace softbody {
 

@@ -11,8 +11,8 @@
 #include "cutting/blade/blade_stroke.h"
 #include "cutting/blade/tearing.h"
 #include "cutting/volume/undo_versions.h"
-#include "softbody_common/tet_geometry.h"
-#include "softbody_common/time.h"
+#include "softbody_common/geometry/tet_geometry.h"
+#include "softbody_common/time/time.h"
 
 namespace softbody {
 namespace {

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "cutting/binding/tet_walk.h"
-#include "softbody_common/tet_locator.h"
+#include "softbody_common/geometry/tet_locator.h"
 
 namespace softbody {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "cutting/binding/side_placement.h"
 #include "cutting/binding/surface_spots.h"
-#include "softbody_common/tet_geometry.h"
-#include "softbody_common/tet_locator.h"
+#include "softbody_common/geometry/tet_geometry.h"
+#include "softbody_common/geometry/tet_locator.h"
 
 namespace softbody {
 namespace {

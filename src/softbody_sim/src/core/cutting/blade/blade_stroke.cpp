@@ -6,7 +6,7 @@
 #include <set>
 
 #include "cutting/blade/blade_outline.h"
-#include "softbody_common/tet_geometry.h"
+#include "softbody_common/geometry/tet_geometry.h"
 
 namespace softbody {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <Eigen/Dense>
 
-#include "softbody_common/tet_geometry.h"
+#include "softbody_common/geometry/tet_geometry.h"
 #include "tets/tet_shape.h"
 
 namespace softbody {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "cutting/patch/patch_intersector.h"
-#include "softbody_common/tet_locator.h"
+#include "softbody_common/geometry/tet_locator.h"
 
 namespace softbody {
 

@@ -6,7 +6,7 @@
 #include "cutting/blade/tear_reach.h"
 #include "cutting/blade/tear_sides.h"
 #include "cutting/patch/plane_section.h"
-#include "softbody_common/tet_geometry.h"
+#include "softbody_common/geometry/tet_geometry.h"
 
 namespace softbody {
 namespace {

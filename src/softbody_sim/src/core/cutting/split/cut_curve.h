@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "cutting/patch/patch_facets.h"
-#include "cutting/split/half_edges.h"
+#include "surface_mesh/half_edges.h"
 
 namespace softbody {
 

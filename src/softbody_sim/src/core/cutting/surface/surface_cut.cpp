@@ -11,11 +11,11 @@
 #include "cutting/split/curve_snapping.h"
 #include "cutting/split/cut_curve.h"
 #include "cutting/split/cut_refused.h"
-#include "cutting/split/manifold_mesh.h"
 #include "cutting/split/split_surface.h"
 #include "cutting/surface/coplanar_faces.h"
 #include "cutting/surface/surface_compaction.h"
 #include "cutting/surface/surface_stitching.h"
+#include "surface_mesh/manifold_mesh.h"
 
 namespace softbody {
 namespace {

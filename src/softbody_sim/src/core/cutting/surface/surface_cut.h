@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "cutting/patch/cut_patch.h"
-#include "cutting/split/manifold_mesh.h"
+#include "surface_mesh/manifold_mesh.h"
 
 namespace softbody {
 

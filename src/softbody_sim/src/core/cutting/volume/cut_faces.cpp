@@ -5,7 +5,7 @@
 #include <tuple>
 
 #include "cutting/volume/manifold.h"
-#include "softbody_common/tet_geometry.h"
+#include "softbody_common/geometry/tet_geometry.h"
 
 namespace softbody {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "cutting/patch/patch_intersector.h"
 #include "cutting/volume/crack_opening.h"
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/types.h"
 
 namespace softbody {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "cutting/volume/tet_cutter.h"
-#include "softbody_common/edit_history.h"
+#include "softbody_common/cutting/edit_history.h"
 
 namespace softbody {
 

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "cutting/patch/patch_intersector.h"
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/types.h"
 
 namespace softbody {
 

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "cutting/volume/cut_history.h"
-#include "softbody_common/cut.h"
+#include "softbody_common/cutting/cut.h"
 
 namespace softbody {
 

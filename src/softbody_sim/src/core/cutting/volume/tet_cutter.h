@@ -8,7 +8,7 @@
 #include "cutting/volume/crack_opening.h"
 #include "cutting/volume/cut_subdivision.h"
 #include "cutting/volume/tet_edit.h"
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/types.h"
 
 namespace softbody {
 

@@ -4,7 +4,7 @@
 
 #include "cutting/volume/cut_faces.h"
 #include "cutting/volume/cut_subdivision.h"
-#include "softbody_common/types.h"
+#include "softbody_common/geometry/types.h"
 
 namespace softbody {
 

@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include "softbody_common/edit_history.h"
+#include "softbody_common/cutting/edit_history.h"
 
 /// The versions of a body that undo and redo return to: the uncut body, then one after each stroke. They are
 /// a cache: a version that was dropped is made again from the patches of its strokes. A Body has

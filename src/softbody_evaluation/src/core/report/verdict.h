@@ -1,0 +1,40 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "report/figures.h"
+
+namespace softbody::evaluation {
+
+enum class Level { kGood, kSuspect, kWrong };
+
+/// "good", "suspect" or "wrong".
+std::string toText(Level level);
+
+/// What one figure says against the result.
+struct Finding {
+  Level level = Level::kGood;
+  std::string sentence;
+};
+
+/// What the figures of a result say together: the worst of its findings.
+struct Verdict {
+  Level level = Level::kGood;
+  std::vector<Finding> findings;    ///< the worst first; empty for a good result
+  std::vector<std::string> limits;  ///< what the figures cannot show, in sentences
+  std::string premise = {};         ///< what to know before the figures, in sentences; empty: nothing
+};
+
+/// Judges a result by the limits of its figures. A result that was compared with nothing is suspect.
+Verdict judge(const Report& report);
+
+/// The level of one figure; kGood if it has no limits or no value.
+Level levelOf(const std::string& figure, double value);
+/// The limits of a figure in words; empty if it has none.
+std::string limitsOf(const std::string& figure);
+
+nlohmann::json toJson(const Verdict& verdict);
+
+}  // namespace softbody::evaluation
