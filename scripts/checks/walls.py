@@ -59,7 +59,9 @@ class Source:
 
 
 def cpp_sources(root):
-    paths = sorted(path for path in (root / "src").rglob("*") if path.suffix in CPP)
+    """All but the programs of a package of its own (CATKIN_IGNORE)."""
+    paths = sorted(path for path in (root / "src").rglob("*")
+                   if path.suffix in CPP and not (path.parent / "CATKIN_IGNORE").exists())
     return [Source(root, path) for path in paths]
 
 
