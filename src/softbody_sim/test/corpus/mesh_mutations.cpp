@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 #include <random>
+#include <utility>
 
 #include "fixtures/box_meshes.h"
 #include "fixtures/model_files.h"
