@@ -6,6 +6,7 @@ ROOT is the project, LIBRARIES the folder with its built libraries (ROOT/catkin_
 libraries are not checked. Prints one line per fault; exit code 1 if there is any.
 A room is a folder of src/core with the public headers of the folder of the same name below include/PACKAGE.
 """
+import graphlib
 import pathlib
 import re
 import subprocess
@@ -140,28 +141,12 @@ def room_graphs(root, sources):
     return graphs
 
 
-def cycle(graph):
-    """Rooms that include each other in a ring, or nothing."""
-    done, trail = set(), []
-
-    def visit(room):
-        if room in trail:
-            return trail[trail.index(room):] + [room]
-        if room in done:
-            return []
-        trail.append(room)
-        for other in sorted(graph.get(room, {})):
-            if found := visit(other):
-                return found
-        done.add(trail.pop())
-        return []
-
-    return next((found for found in map(visit, sorted(graph)) if found), [])
-
-
 def room_faults(root, sources):
     for package, graph in room_graphs(root, sources).items():
-        if ring := cycle(graph):
+        try:
+            graphlib.TopologicalSorter(graph).prepare()
+        except graphlib.CycleError as error:
+            ring = error.args[1][::-1]  # each room includes the next
             steps = [f"{a} -> {b} ({graph[a][b]})" for a, b in zip(ring, ring[1:])]
             yield f"src/{package}: the rooms include each other: {', '.join(steps)}"
 
