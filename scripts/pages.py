@@ -21,7 +21,7 @@ def percent(value, digits=1):
 
 
 def row_of(cells):
-    return f"| {' | '.join(map(str, cells))} |\n"
+    return f"| {' | '.join(str(cell).replace('|', '/') for cell in cells)} |\n"
 
 
 def commit():
