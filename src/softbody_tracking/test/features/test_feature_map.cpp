@@ -247,7 +247,7 @@ TEST_F(FeatureMapTest, TriesFeaturesForTheSameTimeAtAnyRate) {
   }
 }
 
-TEST_F(FeatureMapTest, LearnsNothingOfAPieceWithPoorObservability) {
+TEST_F(FeatureMapTest, LearnsNothingOfAnAlmostHiddenPiece) {
   FeatureMap none{FeatureConfig()};
   admit(keypoints(), &none, 0, false);
   EXPECT_TRUE(none.features().empty());

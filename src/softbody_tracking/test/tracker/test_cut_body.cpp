@@ -75,7 +75,7 @@ void coverAround(int side, RgbdFrame* frame) {
   if (side > 0) depth(left_open).copyTo(frame->depth(left_open));
 }
 
-TEST(CutBody, IsHeldIfNoPieceIsWellObservable) {
+TEST(CutBody, IsHeldIfNoPieceIsWellVisible) {
   TrackedBox tracked;
   for (int i = 0; i < 5; ++i) tracked.show(posedBox(tracked.box()));
   tracked.cut(posedBox(cutBox(tracked.box())));
@@ -166,7 +166,7 @@ class CutObserver : public ::testing::Test {
   FrameObserver observer_;
 };
 
-TEST_F(CutObserver, ExpectsNoFeaturesOfAPieceWithPoorObservability) {
+TEST_F(CutObserver, ExpectsNoFeaturesOfAnAlmostHiddenPiece) {
   const Observation whole = observer_.observe(next(frame_), rest_).seen;
   ASSERT_GT(whole.expected_features, 200);
   EXPECT_EQ(whole.matched_features, static_cast<int>(whole.matches.size()));
@@ -174,7 +174,7 @@ TEST_F(CutObserver, ExpectsNoFeaturesOfAPieceWithPoorObservability) {
   frame_.depth(cv::Rect(middle - 20, 0, 640 - middle + 20, 480)).setTo(0.0f);
   for (int i = 0; i < 2; ++i) {
     const Observation seen = observer_.observe(next(frame_), rest_).seen;
-    ASSERT_EQ(seen.observability[1], Observability::kPoor);
+    ASSERT_EQ(seen.visibility[1], Visibility::kAlmostHidden);
     EXPECT_LT(seen.expected_features, 0.7 * whole.expected_features);
     EXPECT_GT(seen.matched_features, 0.8 * seen.expected_features) << "found wherever expected";
   }

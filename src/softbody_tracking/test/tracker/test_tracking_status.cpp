@@ -70,13 +70,13 @@ TEST(StatusOf, ABodyThatIsMostlyOccludedIsTracked) {
 
 TEST(StatusOf, PiecesThatAreAllHeldAreNotTracked) {
   Observation seen = wellSeen();
-  seen.observability = {Observability::kPoor, Observability::kPoor};
+  seen.visibility = {Visibility::kAlmostHidden, Visibility::kAlmostHidden};
   EXPECT_EQ(statusWith(seen).state, TrackingState::kDegraded);
-  seen.observability[0] = Observability::kPartial;
+  seen.visibility[0] = Visibility::kPartly;
   EXPECT_EQ(statusWith(seen).state, TrackingState::kTracking);
 }
 
-/// Features on a piece with poor observability are no inliers; they do not affect the others.
+/// Features on a piece that is almost hidden are no inliers; they do not affect the others.
 TEST(StatusOf, CountsTheFeaturesOfTrackedPieces) {
   EXPECT_NEAR(statusWith(wellSeen()).inlier_ratio, 0.95, 1e-9);
   Observation seen = wellSeen(100, 90);
@@ -97,11 +97,11 @@ constexpr Nanoseconds kFrameInterval = 33'333'333;
 using Names = std::vector<std::set<std::uint32_t>>;
 
 /// Status of three pieces after some frames. @param reason of each frame before.
-TrackingStatus statusAfter(const std::vector<Observability>& observability, const std::vector<bool>& in_view,
+TrackingStatus statusAfter(const std::vector<Visibility>& visibility, const std::vector<bool>& in_view,
                            int frames, TrackingState state = TrackingState::kTracking,
                            const std::string& reason = {}) {
   Observation seen;
-  seen.observability = observability;
+  seen.visibility = visibility;
   seen.in_view = in_view;
   HeldPieces held;
   TrackingStatus status;
@@ -114,24 +114,26 @@ TrackingStatus statusAfter(const std::vector<Observability>& observability, cons
   return status;
 }
 
-constexpr Observability kPoor = Observability::kPoor, kGood = Observability::kGood;
+constexpr Visibility kAlmostHidden = Visibility::kAlmostHidden, kWell = Visibility::kWell;
 
 TEST(HeldPieces, DegradeTheTrackingIfInView) {
-  EXPECT_EQ(statusAfter({kGood, kGood, kGood}, {true, true, true}, 20).reason, "");
-  EXPECT_EQ(statusAfter({kPoor, kGood, kGood}, {true, true, true}, 2).state, TrackingState::kTracking)
+  EXPECT_EQ(statusAfter({kWell, kWell, kWell}, {true, true, true}, 20).reason, "");
+  EXPECT_EQ(statusAfter({kAlmostHidden, kWell, kWell}, {true, true, true}, 2).state, TrackingState::kTracking)
       << "yet";
-  const TrackingStatus status = statusAfter({kPoor, kGood, kGood}, {true, true, true}, 20);
+  const TrackingStatus status = statusAfter({kAlmostHidden, kWell, kWell}, {true, true, true}, 20);
   EXPECT_EQ(status.state, TrackingState::kDegraded);
   EXPECT_NE(status.reason.find("piece 2 of 4"), std::string::npos) << status.reason;
-  EXPECT_NE(statusAfter({kPoor, kPoor, kGood}, {true, true, true}, 20).reason.find("pieces 0, 2, 3 of 4"),
+  EXPECT_NE(statusAfter({kAlmostHidden, kAlmostHidden, kWell}, {true, true, true}, 20)
+                .reason.find("pieces 0, 2, 3 of 4"),
             std::string::npos);
 }
 
 TEST(HeldPieces, AreOnlyInferredIfOutOfView) {
-  const TrackingStatus status = statusAfter({kGood, kGood, kPoor}, {true, true, false}, 20);
+  const TrackingStatus status = statusAfter({kWell, kWell, kAlmostHidden}, {true, true, false}, 20);
   EXPECT_EQ(status.state, TrackingState::kTracking);
   EXPECT_NE(status.reason.find("piece 1 of 4"), std::string::npos) << status.reason;
-  EXPECT_EQ(statusAfter({kPoor, kGood, kPoor}, {true, true, false}, 20).state, TrackingState::kDegraded)
+  EXPECT_EQ(statusAfter({kAlmostHidden, kWell, kAlmostHidden}, {true, true, false}, 20).state,
+            TrackingState::kDegraded)
       << "another piece is in view";
 }
 
@@ -142,7 +144,7 @@ TEST(HeldPieces, AreInferredOutOfViewOrTooSmall) {
     samples.samples.resize(100 + blocks);
     for (std::size_t i = 100; i < samples.samples.size(); ++i) samples.samples[i].piece = 1;
     Observation seen;
-    seen.observability = {kGood, kPoor};
+    seen.visibility = {kWell, kAlmostHidden};
     seen.in_view = piecesInView(samples, 2);
     HeldPieces held;
     TrackingStatus status;
@@ -159,20 +161,24 @@ TEST(HeldPieces, AreInferredOutOfViewOrTooSmall) {
 }
 
 TEST(HeldPieces, AreAddedToTheReason) {
-  const auto reason = [](const std::vector<Observability>& observability, const std::string& before) {
-    return statusAfter(observability, {true, true, false}, 20, TrackingState::kTracking, before).reason;
+  const auto reason = [](const std::vector<Visibility>& visibility, const std::string& before) {
+    return statusAfter(visibility, {true, true, false}, 20, TrackingState::kTracking, before).reason;
   };
   const std::string alike = "tracked in one of 4 poses that look alike";
-  EXPECT_EQ(reason({kGood, kGood, kGood}, alike), alike);
-  EXPECT_EQ(reason({kGood, kGood, kPoor}, alike), alike + "; " + reason({kGood, kGood, kPoor}, ""));
-  EXPECT_EQ(reason({kPoor, kGood, kPoor}, alike),
-            alike + "; " + reason({kPoor, kGood, kGood}, "") + "; " + reason({kGood, kGood, kPoor}, ""));
+  EXPECT_EQ(reason({kWell, kWell, kWell}, alike), alike);
+  EXPECT_EQ(reason({kWell, kWell, kAlmostHidden}, alike),
+            alike + "; " + reason({kWell, kWell, kAlmostHidden}, ""));
+  EXPECT_EQ(reason({kAlmostHidden, kWell, kAlmostHidden}, alike),
+            alike + "; " + reason({kAlmostHidden, kWell, kWell}, "") + "; " +
+                reason({kWell, kWell, kAlmostHidden}, ""));
 }
 
 TEST(HeldPieces, DoNotChangeAWorseState) {
   for (const TrackingState state : {TrackingState::kLost, TrackingState::kDegraded}) {
-    EXPECT_EQ(statusAfter({kPoor, kPoor, kPoor}, {true, true, true}, 20, state).state, state);
-    EXPECT_EQ(statusAfter({kPoor, kPoor, kPoor}, {true, true, true}, 20, state).reason, "");
+    EXPECT_EQ(statusAfter({kAlmostHidden, kAlmostHidden, kAlmostHidden}, {true, true, true}, 20, state).state,
+              state);
+    EXPECT_EQ(
+        statusAfter({kAlmostHidden, kAlmostHidden, kAlmostHidden}, {true, true, true}, 20, state).reason, "");
   }
 }
 

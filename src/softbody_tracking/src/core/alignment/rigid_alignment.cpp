@@ -1,6 +1,6 @@
 #include "alignment/rigid_alignment.h"
 
-#include "alignment/piece_observability.h"
+#include "alignment/piece_visibility.h"
 
 namespace softbody {
 namespace {
@@ -13,7 +13,7 @@ constexpr std::size_t kEnoughFeatures = 300;
 constexpr int kPixelStep = 2;
 // Motion of the fastest vertex [m] at which the ICP ends; below the depth noise.
 constexpr double kConvergence = 3e-4;
-// Weight that holds a piece with partial observability back, as a share of the weight of its measurements.
+// Weight that holds a partly visible piece back, as a share of the weight of its measurements.
 constexpr double kHeldShare = 0.15;
 
 /// Associations by the piece that they measure.
@@ -53,16 +53,15 @@ AssociationsByPiece gather(const std::vector<Association>& depth, const std::vec
   return result;
 }
 
-/// One ICP step of every piece that is observable.
+/// One ICP step of every piece that is not almost hidden.
 RigidMotions steppedMotions(const RigidMotions& motions, const std::vector<Points>& pieces,
-                            const std::vector<Observability>& observability,
-                            const AssociationsByPiece& measured) {
+                            const std::vector<Visibility>& visibility, const AssociationsByPiece& measured) {
   RigidMotions result = motions;
   for (std::size_t piece = 0; piece < motions.size(); ++piece) {
-    if (observability[piece] == Observability::kPoor) continue;
+    if (visibility[piece] == Visibility::kAlmostHidden) continue;
     if (static_cast<int>(measured[piece].size()) < kFewestAssociations) continue;
     std::vector<Association> held;
-    if (observability[piece] == Observability::kPartial)
+    if (visibility[piece] == Visibility::kPartly)
       held = heldBack(pieces[piece], motions[piece], measured[piece]);
     result[piece] = rigidStep(measured[piece], held) * motions[piece];
   }
@@ -113,7 +112,7 @@ RigidMotions alignRigidly(const RgbdFrame& frame, const View& view, const Labels
     const AssociationsByPiece measured =
         gather(seen.associations, moved_features, moved_contours, motions.size());
     const RigidMotions next = steppedMotions(
-        motions, pieces, pieceObservability(view.samples, seen.associations, matches, pieces), measured);
+        motions, pieces, pieceVisibility(view.samples, seen.associations, matches, pieces), measured);
     const double step_m =
         (surface.movedVolume(next) - surface.movedVolume(motions)).rowwise().norm().maxCoeff();
     motions = next;

@@ -22,7 +22,7 @@ std::vector<Association> heldBack(const Points& piece, const Eigen::Isometry3d& 
 double largestMotion(const PredictedSurface& surface, const RigidMotions& motions);
 
 /// The rigid motion of each piece that aligns the view with depth, contours and features (point-to-plane
-/// ICP). Pieces with poor observability do not move.
+/// ICP). Pieces that are almost hidden do not move.
 RigidMotions alignRigidly(const RgbdFrame& frame, const View& view, const Labels& labels,
                           const std::vector<FeatureMatch>& matches, const MeasurementWeights& weights);
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "alignment/piece_observability.h"
+#include "alignment/piece_visibility.h"
 #include "features/feature_outliers.h"
 
 namespace softbody {

@@ -77,7 +77,7 @@ ObservedBody FrameObserver::observe(const RgbdFrame& frame, const Points& predic
   const GrayPyramid image = guess.features.image;
   Observation seen = measure(frame, guess.view, guess.labels, motions, std::move(guess.features));
   seen.visible_vertices = visible_vertices;
-  tracked_before_ = seen.atLeast(Observability::kPartial);
+  tracked_before_ = seen.atLeast(Visibility::kPartly);
   map_.score(seen.expected, seen.matches, tracked_before_, elapsed_s_);
   colors_.learn(frame, guess.view.surface.image(), guess.labels, elapsed_s_);
   last_labels_ = guess.labels.memory;
@@ -100,7 +100,7 @@ Observation FrameObserver::measure(const RgbdFrame& frame, const View& view, con
   downweightByNoise(depth_noise_.patchStdDev(edge_m) / edge_m, &seen.depth);
   seen.outline = contoursOf(frame, view, motions, labels, weights_);
   weighByResidual(kRobustScale, &seen.outline.associations);
-  return restrictedToObservable(std::move(seen), view.samples, view.surface.pieceVertices());
+  return restrictedToVisible(std::move(seen), view.samples, view.surface.pieceVertices());
 }
 
 /// Pieces that were held in the last frame are not expected in their places. Without any other, all are.

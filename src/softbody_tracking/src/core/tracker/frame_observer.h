@@ -83,7 +83,7 @@ class FrameObserver {
   FeatureFinder finder_;
   Guesses guesses_;
   FeatureAdmission admission_;
-  /// Per piece: at least partial observability in the last frame; empty: all.
+  /// Per piece: at least partly visible in the last frame; empty: all.
   std::vector<bool> tracked_before_;
 };
 

@@ -4,21 +4,20 @@
 
 namespace softbody {
 
-std::vector<bool> Observation::atLeast(Observability least) const {
+std::vector<bool> Observation::atLeast(Visibility least) const {
   std::vector<bool> result;
-  for (const Observability piece : observability) result.push_back(piece >= least);
+  for (const Visibility piece : visibility) result.push_back(piece >= least);
   return result;
 }
 
-Observation restrictedToObservable(Observation seen, const SurfaceSamples& samples,
-                                   const std::vector<Points>& pieces) {
+Observation restrictedToVisible(Observation seen, const SurfaceSamples& samples,
+                                const std::vector<Points>& pieces) {
   const std::vector<Association>& depth = seen.depth.associations;
   seen.agreeing_blocks = depth.size();
-  seen.observability = pieceObservability(samples, depth, seen.matches, pieces);
+  seen.visibility = pieceVisibility(samples, depth, seen.matches, pieces);
   seen.learnable = confirmedPieces(samples, depth, pieces.size());
   seen.in_view = piecesInView(samples, pieces.size());
-  const std::vector<bool> good = seen.atLeast(Observability::kGood),
-                          tracked = seen.atLeast(Observability::kPartial);
+  const std::vector<bool> good = seen.atLeast(Visibility::kWell), tracked = seen.atLeast(Visibility::kPartly);
   seen.expected_features = seen.expected.countOn(tracked);
   seen.matched_features = matchesOn(tracked, seen.matches);
   for (std::size_t p = 0; p < good.size(); ++p) seen.learnable[p] = seen.learnable[p] || good[p];

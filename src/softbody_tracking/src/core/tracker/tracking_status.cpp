@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-#include "alignment/piece_observability.h"
+#include "alignment/piece_visibility.h"
 #include "tracker/backoff.h"
 
 namespace softbody {
@@ -42,9 +42,9 @@ std::string sentenceFor(const Disagreement& disagreement, const std::string& cau
 }
 
 /// Whether no piece is followed.
-bool isHeld(const std::vector<Observability>& pieces) {
-  const auto isPoor = [](Observability piece) { return piece == Observability::kPoor; };
-  return !pieces.empty() && std::all_of(pieces.begin(), pieces.end(), isPoor);
+bool isHeld(const std::vector<Visibility>& pieces) {
+  const auto almostHidden = [](Visibility piece) { return piece == Visibility::kAlmostHidden; };
+  return !pieces.empty() && std::all_of(pieces.begin(), pieces.end(), almostHidden);
 }
 
 std::string piecesText(const std::set<std::uint32_t>& numbers, std::size_t count) {
@@ -79,7 +79,7 @@ TrackingStatus statusOf(const Observation& seen, const std::vector<Association>&
   else if (error.bound_m > tolerance_m)
     status.reason = fmt::format("half of the visible body may be {:.0f} mm off or more: {}",
                                 1000.0 * error.bound_m, cause);
-  else if (isHeld(seen.observability))
+  else if (isHeld(seen.visibility))
     status.reason = "every piece is almost hidden, and stays at its last pose";
   status.state = status.reason.empty() ? TrackingState::kTracking : TrackingState::kDegraded;
   return status;
@@ -87,10 +87,10 @@ TrackingStatus statusOf(const Observation& seen, const std::vector<Association>&
 
 TrackingStatus HeldPieces::report(const Observation& seen, const std::vector<std::set<std::uint32_t>>& names,
                                   Nanoseconds stamp, TrackingStatus status) {
-  since_.resize(seen.observability.size());
+  since_.resize(seen.visibility.size());
   std::set<std::uint32_t> all, missing, hidden;
   for (std::size_t p = 0; p < since_.size(); ++p) {
-    if (seen.observability[p] != Observability::kPoor)
+    if (seen.visibility[p] != Visibility::kAlmostHidden)
       since_[p].reset();
     else if (!since_[p])
       since_[p] = stamp;

@@ -37,7 +37,7 @@ class HeldPieces {
   void reset() { since_.clear(); }
 
  private:
-  std::vector<std::optional<Nanoseconds>> since_;  ///< per piece: stamp since which its observability is poor
+  std::vector<std::optional<Nanoseconds>> since_;  ///< per piece: stamp since which it is almost hidden
 };
 
 }  // namespace softbody

@@ -33,9 +33,9 @@ void addHeldPieces(const Observation& seen, const std::vector<std::vector<int>>&
                    const Points& simulated, const Points& found, const PositionPrior& hold,
                    std::vector<Target>* targets) {
   for (std::size_t p = 0; p < pieces.size(); ++p) {
-    if (seen.observability[p] == Observability::kGood) continue;
-    const bool is_poor = seen.observability[p] == Observability::kPoor;
-    hold.addTargets(pieces[p], is_poor ? simulated : found, PositionPrior::kPriorWeight, targets);
+    if (seen.visibility[p] == Visibility::kWell) continue;
+    const bool almost_hidden = seen.visibility[p] == Visibility::kAlmostHidden;
+    hold.addTargets(pieces[p], almost_hidden ? simulated : found, PositionPrior::kPriorWeight, targets);
   }
 }
 

@@ -18,8 +18,8 @@ std::vector<TrackedFeature> trackedFeatures(const Observation& seen, const std::
 std::vector<Target> targetsOf(const std::vector<Association>& associations,
                               const Eigen::Isometry3d& T_fixed_camera);
 
-/// Adds weak targets at the vertices of pieces that are not well observable. A piece with poor observability
-/// stays at its simulated place. A piece with partial observability moves as a whole to the place where it
+/// Adds weak targets at the vertices of pieces that are not well visible. A piece that is almost hidden
+/// stays at its simulated place. A piece that is partly visible moves as a whole to the place where it
 /// was found.
 /// @param pieces vertices of each piece. @param simulated vertices of the volume, fixed frame [m]. @param
 /// found the same after the rigid alignment.

@@ -1,4 +1,4 @@
-#include "alignment/piece_observability.h"
+#include "alignment/piece_visibility.h"
 
 #include <gtest/gtest.h>
 
@@ -35,9 +35,8 @@ Association somewhere(std::size_t piece, double spread, std::mt19937* random) {
   return association;
 }
 
-/// For each piece, whether its observability is at least this.
-std::vector<bool> observable(const std::vector<PieceData>& pieces,
-                             Observability least = Observability::kPartial) {
+/// For each piece, whether it is at least so visible.
+std::vector<bool> visible(const std::vector<PieceData>& pieces, Visibility least = Visibility::kPartly) {
   std::mt19937 random(5);
   SurfaceSamples samples;
   std::vector<Association> depth;
@@ -57,51 +56,51 @@ std::vector<bool> observable(const std::vector<PieceData>& pieces,
     }
   }
   std::vector<bool> result;
-  for (const Observability piece_result :
-       pieceObservability(samples, depth, matches, std::vector<Points>(pieces.size(), cube())))
+  for (const Visibility piece_result :
+       pieceVisibility(samples, depth, matches, std::vector<Points>(pieces.size(), cube())))
     result.push_back(piece_result >= least);
   return result;
 }
 
 constexpr PieceData kWhole{400, 390, 200, 5};
 
-TEST(PieceObservability, AnUncutBodyAlwaysShowsEnough) {
-  EXPECT_EQ(observable({{400, 0, 0, 0}}), std::vector<bool>({true}));
+TEST(PieceVisibility, AnUncutBodyAlwaysShowsEnough) {
+  EXPECT_EQ(visible({{400, 0, 0, 0}}), std::vector<bool>({true}));
 }
 
-TEST(PieceObservability, EachPieceIsJudgedByWhatShowsOfItself) {
-  EXPECT_EQ(observable({kWhole, {300, 0, 0, 0}, kWhole}), std::vector<bool>({true, false, true}));
+TEST(PieceVisibility, EachPieceIsJudgedByWhatShowsOfItself) {
+  EXPECT_EQ(visible({kWhole, {300, 0, 0, 0}, kWhole}), std::vector<bool>({true, false, true}));
 }
 
-TEST(PieceObservability, ARimBesideTheBladeIsNotEnough) {
-  EXPECT_EQ(observable({kWhole, {300, 60, 0, 0}}), std::vector<bool>({true, false}));
-  EXPECT_EQ(observable({kWhole, {300, 100, 0, 0}}), std::vector<bool>({true, true}));
+TEST(PieceVisibility, ARimBesideTheBladeIsNotEnough) {
+  EXPECT_EQ(visible({kWhole, {300, 60, 0, 0}}), std::vector<bool>({true, false}));
+  EXPECT_EQ(visible({kWhole, {300, 100, 0, 0}}), std::vector<bool>({true, true}));
 }
 
-TEST(PieceObservability, OfALargePieceAHiddenPartDoesNotMatter) {
-  EXPECT_EQ(observable({kWhole, {900, 200, 0, 0}}), std::vector<bool>({true, true}));
+TEST(PieceVisibility, OfALargePieceAHiddenPartDoesNotMatter) {
+  EXPECT_EQ(visible({kWhole, {900, 200, 0, 0}}), std::vector<bool>({true, true}));
 }
 
-TEST(PieceObservability, ASmallPieceNeedsAFewBlocksHoweverSmallItIs) {
-  EXPECT_EQ(observable({kWhole, {6, 6, 0, 0}}), std::vector<bool>({true, false}));
-  EXPECT_EQ(observable({kWhole, {40, 35, 0, 0}}), std::vector<bool>({true, true}));
+TEST(PieceVisibility, ASmallPieceNeedsAFewBlocksHoweverSmallItIs) {
+  EXPECT_EQ(visible({kWhole, {6, 6, 0, 0}}), std::vector<bool>({true, false}));
+  EXPECT_EQ(visible({kWhole, {40, 35, 0, 0}}), std::vector<bool>({true, true}));
 }
 
-TEST(PieceObservability, FeaturesAreEnoughWithoutDepthButOnlyThoseThatAgree) {
-  EXPECT_EQ(observable({kWhole, {300, 0, 20, 0}}), std::vector<bool>({true, true}));
-  EXPECT_EQ(observable({kWhole, {300, 0, 3, 40}}), std::vector<bool>({true, false}));
+TEST(PieceVisibility, FeaturesAreEnoughWithoutDepthButOnlyThoseThatAgree) {
+  EXPECT_EQ(visible({kWhole, {300, 0, 20, 0}}), std::vector<bool>({true, true}));
+  EXPECT_EQ(visible({kWhole, {300, 0, 3, 40}}), std::vector<bool>({true, false}));
 }
 
 /// A few measurements close together leave the rotation undetermined.
-TEST(PieceObservability, WhatShowsMustFixTheWholePiece) {
+TEST(PieceVisibility, WhatShowsMustFixTheWholePiece) {
   const auto together = [](double spread) { return std::vector<PieceData>{kWhole, {100, 90, 0, 0, spread}}; };
-  EXPECT_EQ(observable(together(0.1)), std::vector<bool>({true, false}));
-  EXPECT_EQ(observable(together(0.45)), std::vector<bool>({true, true}));
-  EXPECT_EQ(observable(together(0.45), Observability::kGood), std::vector<bool>({true, false}));
-  EXPECT_EQ(observable(together(1.0), Observability::kGood), std::vector<bool>({true, true}));
+  EXPECT_EQ(visible(together(0.1)), std::vector<bool>({true, false}));
+  EXPECT_EQ(visible(together(0.45)), std::vector<bool>({true, true}));
+  EXPECT_EQ(visible(together(0.45), Visibility::kWell), std::vector<bool>({true, false}));
+  EXPECT_EQ(visible(together(1.0), Visibility::kWell), std::vector<bool>({true, true}));
 }
 
-TEST(PieceObservability, OnePlaneOfDepthDoesNotFixWhatFeaturesDo) {
+TEST(PieceVisibility, OnePlaneOfDepthDoesNotFixWhatFeaturesDo) {
   std::mt19937 random(5);
   SurfaceSamples samples;
   std::vector<Association> depth;
@@ -119,9 +118,9 @@ TEST(PieceObservability, OnePlaneOfDepthDoesNotFixWhatFeaturesDo) {
     match.association = depth.back();
     matches.push_back(match);
   }
-  const std::vector<Observability> result = pieceObservability(samples, depth, matches, {cube(), cube()});
-  EXPECT_EQ(result[0], Observability::kPoor);
-  EXPECT_NE(result[1], Observability::kPoor);
+  const std::vector<Visibility> result = pieceVisibility(samples, depth, matches, {cube(), cube()});
+  EXPECT_EQ(result[0], Visibility::kAlmostHidden);
+  EXPECT_NE(result[1], Visibility::kAlmostHidden);
 }
 
 TEST(ConfirmedPieces, AreThoseWhoseDepthAgreesNearlyEverywhere) {

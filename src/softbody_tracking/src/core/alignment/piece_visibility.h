@@ -12,17 +12,16 @@ namespace softbody {
 constexpr int kFewestAssociations = 12;
 
 /// How well the measurements of a frame determine the rigid motion of a piece of a cut body.
-enum class Observability {
-  kPoor,     ///< not determined: only a rim beside the blade is visible, or a few features close together
-  kPartial,  ///< determined but uncertain: the rigid motion of the piece is damped
-  kGood      ///< determined, or an uncut body; TrackingStatus says how well that is tracked
+enum class Visibility {
+  kAlmostHidden,  ///< not determined: only a rim beside the blade shows, or a few features close together
+  kPartly,        ///< determined but uncertain: the rigid motion of the piece is damped
+  kWell           ///< determined, or an uncut body; TrackingStatus says how well that is tracked
 };
 
-/// Observability of each piece. @param pieces vertices of each piece [m].
-std::vector<Observability> pieceObservability(const SurfaceSamples& samples,
-                                              const std::vector<Association>& depth,
-                                              const std::vector<FeatureMatch>& matches,
-                                              const std::vector<Points>& pieces);
+/// Visibility of each piece. @param pieces vertices of each piece [m].
+std::vector<Visibility> pieceVisibility(const SurfaceSamples& samples, const std::vector<Association>& depth,
+                                        const std::vector<FeatureMatch>& matches,
+                                        const std::vector<Points>& pieces);
 
 /// For each piece, whether the prediction shows enough of it to track it, if nothing occludes it.
 std::vector<bool> piecesInView(const SurfaceSamples& samples, std::size_t piece_count);

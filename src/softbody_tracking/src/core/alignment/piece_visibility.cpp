@@ -1,4 +1,4 @@
-#include "alignment/piece_observability.h"
+#include "alignment/piece_visibility.h"
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -12,8 +12,8 @@ namespace {
 constexpr int kEnough = 150;
 // Share of a piece's visible blocks that must agree; a rim beside the blade is less.
 constexpr double kLeastShown = 0.3;
-// Largest error of a vertex, in errors of one block of depth, for good and for partial observability.
-constexpr double kGoodError = 1.0, kPartialError = 2.0;
+// Largest error of a vertex, in errors of one block of depth, of a piece that is well or partly visible.
+constexpr double kWellError = 1.0, kPartlyError = 2.0;
 // Share of the visible blocks that must agree before new features are learned.
 constexpr double kConfirmed = 0.9;
 // Precision of a feature across its ray, relative to that of a block of depth.
@@ -57,23 +57,22 @@ double largestError(const Evidence& evidence, const Points& points) {
   return std::sqrt(largest);
 }
 
-Observability observabilityOf(const Evidence& evidence, const Points& points) {
-  if (evidence.agreeing >= kEnough) return Observability::kGood;
+Visibility visibilityOf(const Evidence& evidence, const Points& points) {
+  if (evidence.agreeing >= kEnough) return Visibility::kWell;
   const bool judgeable =
       evidence.features >= kFewestAssociations ||
       (evidence.agreeing >= kFewestAssociations && evidence.agreeing >= kLeastShown * evidence.blocks);
-  const double error = judgeable ? largestError(evidence, points) : kPartialError;
-  if (error >= kPartialError) return Observability::kPoor;
-  return error >= kGoodError ? Observability::kPartial : Observability::kGood;
+  const double error = judgeable ? largestError(evidence, points) : kPartlyError;
+  if (error >= kPartlyError) return Visibility::kAlmostHidden;
+  return error >= kWellError ? Visibility::kPartly : Visibility::kWell;
 }
 
 }  // namespace
 
-std::vector<Observability> pieceObservability(const SurfaceSamples& samples,
-                                              const std::vector<Association>& depth,
-                                              const std::vector<FeatureMatch>& matches,
-                                              const std::vector<Points>& pieces) {
-  if (pieces.size() == 1) return {Observability::kGood};
+std::vector<Visibility> pieceVisibility(const SurfaceSamples& samples, const std::vector<Association>& depth,
+                                        const std::vector<FeatureMatch>& matches,
+                                        const std::vector<Points>& pieces) {
+  if (pieces.size() == 1) return {Visibility::kWell};
   std::vector<Evidence> evidence(pieces.size());
   for (std::size_t p = 0; p < pieces.size(); ++p) evidence[p].center = pieces[p].colwise().mean();
   for (const SurfaceSample& sample : samples.samples) ++evidence[sample.piece].blocks;
@@ -81,9 +80,9 @@ std::vector<Observability> pieceObservability(const SurfaceSamples& samples,
   for (const FeatureMatch& match : matches) {
     if (match.inlier) evidence[match.association.piece].addFeature(match.association);
   }
-  std::vector<Observability> result;
+  std::vector<Visibility> result;
   result.reserve(pieces.size());
-  for (std::size_t p = 0; p < pieces.size(); ++p) result.push_back(observabilityOf(evidence[p], pieces[p]));
+  for (std::size_t p = 0; p < pieces.size(); ++p) result.push_back(visibilityOf(evidence[p], pieces[p]));
   return result;
 }
 
