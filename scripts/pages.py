@@ -93,5 +93,7 @@ def fill(page, name, words, columns, rows):
     """Replaces what is between the marks `NAME begin` and `NAME end` in a page by words and a table."""
     text = page.read_text(encoding="utf-8")
     begin, end = (re.search(f"<!-- {name} {mark}.*?-->", text) for mark in ("begin", "end"))
+    if not begin or not end:
+        raise ValueError(f"{page} needs the marks <!-- {name} begin --> and <!-- {name} end -->")
     table = "".join(map(row_of, [columns, ["---"] * len(columns), *rows]))
     replace_file(page, f"{text[:begin.end()]}\n{words}\n\n{table}{text[end.start():]}")

@@ -9,6 +9,7 @@ from live.knife import CONFIG, KNIFE, Knife
 from live.process_times import graph_times
 from live.streams import CAMERA, CUTS, STREAMS, SURFACE, Stream
 
+START_S = 120.0  # longest time until the first surface
 WARM_UP_S = 2.0  # after the first mesh: past the first registration
 SILENCE_S = 1.0  # of the camera: the bag is over
 LATE_S = 10.0  # after the bag: no search for the body takes longer
@@ -54,7 +55,7 @@ class Measurement:
 
     def _wait_for_surface(self, graph):
         camera, bag = self.streams[CAMERA], self.options.bag
-        deadline = time.monotonic() + self.options.wait
+        deadline = time.monotonic() + START_S
         while not self.streams[SURFACE].stamps:
             if bag and camera.arrivals and time.monotonic() > camera.arrivals[-1] + LATE_S:
                 sys.exit(f"measure_live: {bag} ended {LATE_S:.0f} s ago, and there is no mesh yet: it is too short, or it does not "
@@ -62,7 +63,7 @@ class Measurement:
             if not graph.runs():
                 sys.exit(f"measure_live: the launch ended before anything came on {SURFACE}")
             if time.monotonic() > deadline:
-                sys.exit(f"measure_live: nothing came on {SURFACE} within {self.options.wait:.0f} s")
+                sys.exit(f"measure_live: nothing came on {SURFACE} within {START_S:.0f} s")
             graph.sleep(0.1)
         graph.sleep(WARM_UP_S)
 

@@ -95,6 +95,10 @@ class PaperPage(unittest.TestCase):
         self.assertEqual(answer.returncode, 0, f"{words}: {sections}\n{answer.stdout}")
         self.assertNotIn("unknown", answer.stdout, f"{words}: {sections}")
 
+    def test_every_part_has_its_table(self):
+        for heading in filter(None, (part.heading for part in PARTS.values())):
+            self.assertTrue(paper_page.table_under(heading, self.page), heading)
+
     def test_the_readme_repeats_the_pages(self):
         readme, evaluation = text_of("README.md"), text_of("docs/evaluation.md")
         self.assertLessEqual(set(numbers(block(readme, "paper"))), set(numbers(block(self.page, "paper"))))
