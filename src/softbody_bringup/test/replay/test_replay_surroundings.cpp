@@ -113,11 +113,13 @@ TEST_F(ReplayedSurroundings, PinsCarryTheWeightOfAStillBody) {
   options.parameters = write("parameters.yaml", "simulator: {gravity_m_s2: [0, 9.81, 0]}\n");
   run(options);
   const auto felt = results<geometry_msgs::WrenchStamped>("/softbody/reaction/all");
-  ASSERT_GT(felt.size(), 40U);
-  EXPECT_EQ(felt[10].header.frame_id, "camera_color_optical_frame");
-  EXPECT_NEAR(felt[10].wrench.force.x, 0.0, 0.05 * kWeight);
-  EXPECT_NEAR(felt[10].wrench.force.y, kWeight, 0.05 * kWeight);
-  EXPECT_NEAR(felt[10].wrench.force.z, 0.0, 0.05 * kWeight);
+  ASSERT_GT(felt.size(), 5U);
+  EXPECT_EQ(felt[2].header.frame_id, "camera_color_optical_frame");
+  EXPECT_NEAR(felt[2].wrench.force.x, 0.0, 0.05 * kWeight);
+  EXPECT_NEAR(felt[2].wrench.force.y, kWeight, 0.05 * kWeight);
+  EXPECT_NEAR(felt[2].wrench.force.z, 0.0, 0.05 * kWeight);
+  for (std::size_t k = 1; k < felt.size(); ++k)  // one for each estimate, with its stamp
+    EXPECT_GE((felt[k].header.stamp - felt[k - 1].header.stamp).toSec(), 0.199);
 }
 
 TEST_F(ReplayedSurroundings, AnUnknownFrameIsSaidAndChangesNothing) {
@@ -172,8 +174,8 @@ TEST_F(ReplayedSurroundings, ACutThroughAPinnedRegionIsMade) {
   EXPECT_GT(summary.cuts, 0);
   EXPECT_EQ(summary.pieces, 2U);
   EXPECT_EQ(summary.failed, 0);
-  EXPECT_GE(static_cast<int>(results<geometry_msgs::WrenchStamped>("/softbody/reaction/end").size()),
-            summary.states - 1);
+  EXPECT_GE(3 * static_cast<int>(results<geometry_msgs::WrenchStamped>("/softbody/reaction/end").size()),
+            summary.states - 1);  // five a second of ten frames
 }
 
 }  // namespace

@@ -84,6 +84,16 @@ class ForceCases:
         self.assertEqual(self.hold("right", end, 1.0, "world"), count)
         self.assertLess(abs(reaction("right")), 0.3 * abs(carried))
 
+    def test_a_reaction_has_the_stamp_of_its_estimate(self):
+        heard = self.hear_forces(softbody__reaction__still=WrenchStamped)
+        self.hold("still", -1.0, self.rest[:, 0].min() + 0.03, "world")
+        first = self.forces_of_a_frame(heard, self.at_rest()).header.stamp
+        last = max(self.forces_of_a_frame(heard, self.at_rest()).header.stamp for _ in range(3))
+        heard.wait(lambda seen: any(m.header.stamp >= last for m in seen["softbody/reaction/still"]), "a reaction")
+        stamps = {name: [m.header.stamp for m in heard.messages[name] if first < m.header.stamp <= last]
+                  for name in ("softbody/forces", "softbody/reaction/still")}
+        self.assertEqual(stamps["softbody/reaction/still"], stamps["softbody/forces"])
+
     def test_arrows_go_when_nothing_is_measured(self):
         heard = self.hear_forces()
         self.forces_of_a_frame(heard, self.bent())

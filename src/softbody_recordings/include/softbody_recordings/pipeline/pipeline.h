@@ -6,9 +6,9 @@
 
 #include "softbody_common/time/stage_timer.h"
 #include "softbody_recordings/pipeline/body_surroundings.h"
-#include "softbody_recordings/pipeline/pin_forces.h"
 #include "softbody_sim/cutting/binding/cuttable_surface.h"
 #include "softbody_sim/dynamics/simulator.h"
+#include "softbody_sim/forces/force_schedule.h"
 #include "softbody_sim/object/material_parameters.h"
 #include "softbody_sim/object/object_model.h"
 #include "softbody_tracking/tool/tool_mask.h"
@@ -104,7 +104,7 @@ class Pipeline {
   Simulator simulator_;
   CuttableSurface surface_;
   BodySurroundings surroundings_;
-  PinForces pin_forces_;
+  ForceSchedule force_schedule_;
   std::optional<ToolTracker> tool_tracker_;
   ToolMask tool_mask_;
   std::vector<Cut> waiting_cuts_;

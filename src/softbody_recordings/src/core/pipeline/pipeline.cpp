@@ -134,19 +134,22 @@ void Pipeline::addShape(FrameOutput* output) {
   output->surface = surface_.surface().apply(simulator_.state());
 }
 
-/// Those of pins are without the springs of the targets.
+/// Those of pins are without the springs of the targets, and left out in frames without an estimate.
 void Pipeline::addReactions(const TargetSet& targets, FrameOutput* output) {
   output->warnings = surroundings_.takeLog();
   const Surroundings& around = surroundings_.last();
   Reactions reactions = simulator_.reactions();
-  const Nanoseconds stamp = simulator_.stamp();
-  if (!output->predicted && (forces_ || pin_forces_.areDue(around.pins, stamp))) {
+  const bool has_springs = !targets.targets.empty();
+  if (has_springs) reactions.pins.clear();
+  const auto pins_are_due = [&] {
+    return has_springs && !around.pins.empty() && force_schedule_.isDue(around.pins, simulator_.stamp());
+  };
+  if (!output->predicted && (forces_ || pins_are_due())) {
     const auto scope = timer_.stage("Forces");
     ForceEstimate forces = simulator_.externalForces(targets, around);
-    pin_forces_.set(around.pins, stamp, forces.pins);
+    if (has_springs) reactions.pins = forces.pins;
     if (forces_) output->forces = std::move(forces);
   }
-  if (!targets.targets.empty()) pin_forces_.applyTo(&reactions.pins);
   output->reactions = surroundings_.named(reactions);
 }
 

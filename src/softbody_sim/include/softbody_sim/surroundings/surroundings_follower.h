@@ -81,7 +81,8 @@ class SurroundingsFollower {
   /// Finds pins that the targets of the last surroundingsAt() contradict. @param vertices after the step.
   void findConflicts(const std::vector<Target>& targets, const Tets& tets, const Points& vertices);
 
-  /// The reactions of a step under the last surroundingsAt(), by name; empty if they are not of this step.
+  /// The reactions of a step under the last surroundingsAt(), by name. Those that are not of this step are
+  /// left out.
   std::vector<NamedReaction> named(const Reactions& reactions) const;
 
   /// The surface in the body's tets at present, for plans.

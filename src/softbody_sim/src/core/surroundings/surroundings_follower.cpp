@@ -238,11 +238,8 @@ void SurroundingsFollower::judge(double conflict_m, HeldPin* pin) {
 
 std::vector<NamedReaction> SurroundingsFollower::named(const Reactions& reactions) const {
   std::vector<NamedReaction> named;
-  if (reactions.obstacles.size() != surroundings_.all.obstacles.size() ||
-      reactions.pins.size() != surroundings_.all.pins.size())
-    return named;
-  addObstacles(reactions, &named);
-  addPins(reactions, &named);
+  if (reactions.obstacles.size() == surroundings_.all.obstacles.size()) addObstacles(reactions, &named);
+  if (reactions.pins.size() == surroundings_.all.pins.size()) addPins(reactions, &named);
   return named;
 }
 

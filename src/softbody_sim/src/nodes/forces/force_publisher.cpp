@@ -3,20 +3,18 @@
 #include <softbody_msgs/Forces.h>
 #include <visualization_msgs/MarkerArray.h>
 
-#include <algorithm>
 #include <boost/make_shared.hpp>
 #include <utility>
 
 #include "softbody_common/protocol/topics.h"
 #include "softbody_common/ros/frame_name.h"
+#include "softbody_common/ros/time.h"
 #include "softbody_sim/ros/force_messages.h"
 
 namespace softbody {
 namespace {
 
-// An estimate takes as long as several steps: at least this time is between two, and a multiple of their own.
-constexpr double kPeriod_s = 0.2;
-constexpr double kRest = 5.0;
+constexpr double kRest = 5.0;  // times that an estimate takes lie between two of them
 
 }  // namespace
 
@@ -35,26 +33,18 @@ void ForcePublisher::publish(const TargetSet& targets, const std_msgs::Header& h
   if (targets.targets.empty()) return forget(header);
   if (!isListenedTo() && !surroundings.hasListenedPins()) return;
   const Surroundings& around = surroundings.lastSurroundings().all;
-  std::vector<int> held;
-  for (const Pin& pin : around.pins) held.push_back(pin.vertex);
-  const double since_s = (header.stamp - estimated_).toSec();
-  if (since_s < 0.0 || since_s >= std::max(kPeriod_s, kRest * taken_s_) || held != held_) {
-    estimated_ = header.stamp;
-    held_ = std::move(held);
-    pins_.clear();
-    const ros::WallTime start = ros::WallTime::now();
-    ForceEstimate estimate = simulator->externalForces(targets, around);
-    taken_s_ = (ros::WallTime::now() - start).toSec();
-    pins_ = estimate.pins;
-    if (isListenedTo()) send(std::move(estimate), header, surroundings);
-  }
-  if (pins_.size() == reactions->pins.size()) reactions->pins = pins_;
+  reactions->pins.clear();
+  if (!schedule_.isDue(around.pins, toNanoseconds(header.stamp), kRest * taken_s_)) return;
+  const ros::WallTime start = ros::WallTime::now();
+  ForceEstimate estimate = simulator->externalForces(targets, around);
+  taken_s_ = (ros::WallTime::now() - start).toSec();
+  reactions->pins = estimate.pins;
+  if (isListenedTo()) send(std::move(estimate), header, surroundings);
 }
 
 /// Without targets nothing is measured, and no spring disturbs the pins.
 void ForcePublisher::forget(const std_msgs::Header& header) {
-  held_.clear();
-  pins_.clear();
+  schedule_ = {};
   if (!std::exchange(shows_arrows_, false)) return;
   softbody_msgs::Forces none;
   none.header = header;

@@ -3,10 +3,10 @@
 #include <ros/ros.h>
 
 #include <string>
-#include <vector>
 
 #include "nodes/simulator/surroundings_tracker.h"
 #include "softbody_sim/dynamics/simulator.h"
+#include "softbody_sim/forces/force_schedule.h"
 
 namespace softbody {
 
@@ -18,7 +18,8 @@ class ForcePublisher {
   ForcePublisher(ros::NodeHandle node, const std::string& wrench_frame);
 
   /// @param targets, @param header of the last step. @param reactions of the step; those of the pins become
-  /// those of the body without the targets' springs. @throw as Simulator::externalForces().
+  /// those of the body without the targets' springs, or none between two estimates.
+  /// @throw as Simulator::externalForces().
   void publish(const TargetSet& targets, const std_msgs::Header& header,
                const SurroundingsTracker& surroundings, Simulator* simulator, Reactions* reactions);
 
@@ -29,10 +30,8 @@ class ForcePublisher {
 
   const std::string wrench_frame_;
   ros::Publisher forces_, markers_;
-  ros::Time estimated_;       ///< stamp of the last estimate
-  double taken_s_ = 0.0;      ///< by the last estimate
-  std::vector<int> held_;     ///< vertices of its pins
-  std::vector<Wrench> pins_;  ///< what they carry
+  ForceSchedule schedule_;
+  double taken_s_ = 0.0;  ///< by the last estimate
   bool shows_arrows_ = false;
 };
 
