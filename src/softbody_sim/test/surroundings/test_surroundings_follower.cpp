@@ -126,6 +126,12 @@ TEST_F(FollowedSurroundings, AGripperHoldsWhatIsBetweenItsFingers) {
   EXPECT_THROW(follower_.grip(boxIn("hand"), lookup(), topology_, rest_, 3 * kFrame), std::invalid_argument);
 }
 
+TEST_F(FollowedSurroundings, AGripperHoldsNothingOfABodyThatIsNotPlaced) {
+  follower_.grip(boxIn("hand"), lookup(), topology_, rest_, kFrame);
+  follower_.updatePins(topology_, {});
+  EXPECT_TRUE(follower_.lastSurroundings().pins.empty());
+}
+
 TEST_F(FollowedSurroundings, ACutAddsItsVerticesToTheRegion) {
   poses_["hand"] = randomPose();
   const Eigen::Isometry3d before = poses_["hand"];

@@ -41,11 +41,13 @@ void PinnedVertices::hold(const BodySurface& surface, const Eigen::Isometry3d& f
 void PinnedVertices::updateVertices(const BodySurface& surface, const Points& rest_vertices,
                                     const Points& vertices) {
   const std::vector<int> before = vertices_;
-  if (region_.in_frame)
-    vertices_ = stillHeld(before, surface.verticesToHold(region_.box(), frame_pose_.inverse(), vertices),
-                          rest_vertices.rows());
-  else
+  if (region_.in_frame) {
+    std::vector<int> inside;  // nothing of a body that is not placed
+    if (vertices.rows() > 0) inside = surface.verticesToHold(region_.box(), frame_pose_.inverse(), vertices);
+    vertices_ = stillHeld(before, inside, rest_vertices.rows());
+  } else {
     vertices_ = surface.verticesToHold(region_.box(), Eigen::Isometry3d::Identity(), rest_vertices);
+  }
   if (vertices.rows() == 0) positions_.reset();
   if (!positions_) return;
   Points positions(static_cast<Eigen::Index>(vertices_.size()), 3);
