@@ -10,8 +10,8 @@
 #include "comparison/open_loop.h"
 #include "comparison/recording_comparison.h"
 #include "comparison/truth_comparison.h"
-#include "report/figures.h"
 #include "report/html_page.h"
+#include "report/metrics.h"
 #include "report/report_folder.h"
 #include "report/report_json.h"
 #include "report/report_text.h"
@@ -205,7 +205,7 @@ Comparison evaluateBoth(const EvaluatorOptions& options, const std::string& othe
   addOther(other, &first.pictures);
   Comparison comparison{first.report, other.report};
   if (!options.report_folder.empty()) {
-    const std::vector<ComparedFigure> rows = compare(first.report, other.report);
+    const std::vector<ComparedMetric> rows = compare(first.report, other.report);
     const std::string text =
         options.result + "\n" + toText(first.report) + "\n" + other_result + "\n" + toText(other.report);
     const std::string page =

@@ -136,7 +136,7 @@ TEST(DepthResidual, OccludersAndMissingDepthAreCountedAndLeftOut) {
   EXPECT_NEAR(report.without_depth_share, 2.0 / 9.0, 1e-12);
 }
 
-TEST(DepthResidual, NothingMeasuredIsNoFigureAndOcclusionNoHit) {
+TEST(DepthResidual, NothingMeasuredIsNoMetricAndOcclusionNoHit) {
   const FrameResidual hidden = depthResidual(cv::Mat1f(4, 4, 0.6f), cv::Mat1f(4, 4, 0.5f), 0.03);
   const FrameResidual absent = depthResidual(cv::Mat1f(4, 4, 0.0f), cv::Mat1f(4, 4, 0.5f), 0.03);
   const ResidualReport report = summarize(std::vector<FrameResidual>{hidden, absent}, 0, 2);

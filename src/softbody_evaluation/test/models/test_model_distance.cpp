@@ -96,7 +96,7 @@ TEST(ModelDistance, ColoursAreComparedAfterAGain) {
   EXPECT_GT(measured(shifted, painted(potato(), 1.0)).color.mean, 5.0);
 }
 
-TEST(ModelDistance, TheSameSeedGivesTheSameFigures) {
+TEST(ModelDistance, TheSameSeedGivesTheSameMetrics) {
   const auto mean = [](std::uint64_t seed) {
     return compareModels(ball(0.051), potato(), kHere, seed).whole.to_truth.mean;
   };

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "report/figure_meaning.h"
+#include "report/metric_meaning.h"
 
 namespace softbody::evaluation {
 namespace {
@@ -48,10 +48,10 @@ TEST(Verdict, WithoutTruthItSaysWhatItCannotKnow) {
   EXPECT_TRUE(judge(report).limits.empty());
 }
 
-TEST(Verdict, EveryFigureWithLimitsExistsAndHasAMeaningOfItsOwn) {
+TEST(Verdict, EveryMetricWithLimitsExistsAndHasAMeaningOfItsOwn) {
   const std::string of_stages = meaningOf("replay: registration, mean");
-  for (const Figure& figure : figures(reportWith(0.002, 0.0)))
-    EXPECT_NE(meaningOf(figure.name), of_stages) << figure.name;
+  for (const Metric& metric : metrics(reportWith(0.002, 0.0)))
+    EXPECT_NE(meaningOf(metric.name), of_stages) << metric.name;
   EXPECT_EQ(limitsOf("depth residual, p95"), "suspect above 20, wrong above 50");
   EXPECT_EQ(limitsOf("jitter while still, RMS"), "");
 }

@@ -1,5 +1,5 @@
 #include "fixtures/evaluator_bags.h"
-#include "report/figures.h"
+#include "report/metrics.h"
 #include "report/report_text.h"
 
 namespace softbody::evaluation {
@@ -33,11 +33,11 @@ TEST(OpenLoop, PredictedFramesAreMeasuredAlone) {
   EXPECT_EQ(report.frames.answered, static_cast<std::size_t>(kTracked));
   EXPECT_EQ(report.frames.recorded, static_cast<std::size_t>(kTracked));
   EXPECT_NE(toText(report).find("open loop: 4 frames, 1.00 s without images"), std::string::npos);
-  const std::vector<Figure> all = figures(report);
-  const auto figure =
-      std::find_if(all.begin(), all.end(), [](const Figure& one) { return one.name == "open loop, mean"; });
-  ASSERT_NE(figure, all.end());
-  EXPECT_NEAR(figure->value, 2.0, 1e-3);
+  const std::vector<Metric> all = metrics(report);
+  const auto metric =
+      std::find_if(all.begin(), all.end(), [](const Metric& one) { return one.name == "open loop, mean"; });
+  ASSERT_NE(metric, all.end());
+  EXPECT_NEAR(metric->value, 2.0, 1e-3);
 }
 
 TEST(OpenLoop, AResultThatUsedItsImagesIsRefused) {

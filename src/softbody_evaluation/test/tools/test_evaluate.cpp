@@ -40,7 +40,7 @@ TEST(Evaluate, PrintsTheVerdictFirstThenAShortTableThenThePage) {
   EXPECT_TRUE(std::filesystem::exists(path)) << path;
 }
 
-TEST(Evaluate, ABadFigureIsMarkedAndExplained) {
+TEST(Evaluate, ABadMetricIsMarkedAndExplained) {
   const std::string result =
       resultFromTruth("printed_beside.bag", [](softbody_msgs::MeshState* s, int) { return shift(s, 0.15f); });
   const std::string text = printed({result, "--truth", recording()});

@@ -23,7 +23,7 @@ struct Comparison {
 /// Evaluates two results with the same truth and recording. One report folder shows both.
 Comparison evaluateBoth(const EvaluatorOptions& options, const std::string& other_result);
 
-/// Both reports, and their figures side by side.
+/// Both reports, and their metrics side by side.
 nlohmann::json toJson(const Comparison& comparison);
 
 }  // namespace softbody::evaluation

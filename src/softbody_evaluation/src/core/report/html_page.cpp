@@ -7,7 +7,7 @@
 #include <cmath>
 #include <opencv2/imgcodecs.hpp>
 
-#include "report/figure_meaning.h"
+#include "report/metric_meaning.h"
 
 namespace softbody::evaluation {
 namespace {
@@ -43,18 +43,18 @@ std::string escaped(const std::string& text) {
 /// The class of a cell or a box, which gives its colour.
 std::string classOf(Level level) { return level == Level::kGood ? "" : " class=" + toText(level); }
 
-std::string cell(const std::string& figure, const std::optional<double>& value) {
+std::string cell(const std::string& metric, const std::optional<double>& value) {
   if (!value || std::isnan(*value)) return "<td>-</td>";
-  return fmt::format("<td{}>{:.4g}</td>", classOf(levelOf(figure, *value)), *value);
+  return fmt::format("<td{}>{:.4g}</td>", classOf(levelOf(metric, *value)), *value);
 }
 
-std::string table(const std::vector<ComparedFigure>& rows) {
+std::string table(const std::vector<ComparedMetric>& rows) {
   bool compared = false;
-  for (const ComparedFigure& row : rows) compared = compared || row.second;
+  for (const ComparedMetric& row : rows) compared = compared || row.second;
   std::string html = "<table><tr><th>metric</th><th>unit</th><th>result</th>";
   html += compared ? "<th>other</th>" : "";
   html += "<th>limits</th><th>meaning</th></tr>\n";
-  for (const ComparedFigure& row : rows) {
+  for (const ComparedMetric& row : rows) {
     html +=
         fmt::format("<tr><td>{}</td><td>{}</td>{}{}<td>{}</td><td>{}</td></tr>\n", escaped(row.name),
                     escaped(row.unit), cell(row.name, row.first), compared ? cell(row.name, row.second) : "",
@@ -165,7 +165,7 @@ std::string inPairs(const Pictures& pictures) {
 
 }  // namespace
 
-std::string htmlPage(const std::vector<JudgedResult>& results, const std::vector<ComparedFigure>& rows,
+std::string htmlPage(const std::vector<JudgedResult>& results, const std::vector<ComparedMetric>& rows,
                      const std::string& text, const Pictures& pictures) {
   std::string title, verdicts, films;
   for (const JudgedResult& result : results) {

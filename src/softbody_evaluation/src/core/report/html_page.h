@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "report/figures.h"
 #include "report/film.h"
+#include "report/metrics.h"
 #include "report/pictures.h"
 #include "report/verdict.h"
 
@@ -18,8 +18,8 @@ struct JudgedResult {
 };
 
 /// A page of HTML that needs no other file and no network: for each result a verdict and a film, then a
-/// table of the figures with their meaning, the pictures and the text.
-std::string htmlPage(const std::vector<JudgedResult>& results, const std::vector<ComparedFigure>& rows,
+/// table of the metrics with their meaning, the pictures and the text.
+std::string htmlPage(const std::vector<JudgedResult>& results, const std::vector<ComparedMetric>& rows,
                      const std::string& text, const Pictures& pictures);
 
 }  // namespace softbody::evaluation

@@ -21,11 +21,11 @@ std::string line(const std::string& name, const std::string& value, const std::s
   return text.erase(text.find_last_not_of(' ') + 1) + "\n";
 }
 
-std::string row(const Figure& figure) {
-  const std::string value = std::isnan(figure.value) ? "-" : fmt::format("{:.4g}", figure.value);
-  const Level level = levelOf(figure.name, figure.value);
+std::string row(const Metric& metric) {
+  const std::string value = std::isnan(metric.value) ? "-" : fmt::format("{:.4g}", metric.value);
+  const Level level = levelOf(metric.name, metric.value);
   const std::string mark = level == Level::kGood ? "" : fmt::format("   <- {}", toText(level));
-  return line(figure.name, value, figure.unit, limitsOf(figure.name) + mark);
+  return line(metric.name, value, metric.unit, limitsOf(metric.name) + mark);
 }
 
 /// Lines of at most kWidth characters. @param bullet before the first one; the others are as far inside.
@@ -57,8 +57,8 @@ std::string verdictText(const Report& report) {
 
 std::string summaryTable(const Report& report) {
   std::string text = line("metric", "result", "", "limits");
-  for (const Figure& figure : figures(report)) {
-    if (kAskedFor.count(figure.name) > 0 || !limitsOf(figure.name).empty()) text += row(figure);
+  for (const Metric& metric : metrics(report)) {
+    if (kAskedFor.count(metric.name) > 0 || !limitsOf(metric.name).empty()) text += row(metric);
   }
   return text;
 }

@@ -9,7 +9,7 @@ namespace softbody::evaluation {
 /// The verdict with its reasons, line by line.
 std::string verdictText(const Report& report);
 
-/// A table of the figures that decide the verdict, with their limits.
+/// A table of the metrics that decide the verdict, with their limits.
 std::string summaryTable(const Report& report);
 
 }  // namespace softbody::evaluation

@@ -14,9 +14,9 @@ namespace {
 // The tracker counts two poses as different if they are turned by more.
 constexpr double kSameTurn_deg = 20.0;
 
-/// The limits of a figure's absolute value, and what it means to exceed them.
+/// The limits of a metric's absolute value, and what it means to exceed them.
 struct Limit {
-  const char* figure;
+  const char* metric;
   bool low_is_bad;
   double suspect, wrong;  ///< kNothing: no such limit
   const char* advice;
@@ -48,9 +48,9 @@ constexpr Limit kLimits[] = {
     {"volume change, largest", false, 10.0, 25.0, "In some frames the mesh was crushed or inflated."},
 };
 
-const Limit* findLimit(const std::string& figure) {
+const Limit* findLimit(const std::string& metric) {
   const auto limit = std::find_if(std::begin(kLimits), std::end(kLimits),
-                                  [&](const Limit& candidate) { return figure == candidate.figure; });
+                                  [&](const Limit& candidate) { return metric == candidate.metric; });
   return limit == std::end(kLimits) ? nullptr : limit;
 }
 
@@ -59,14 +59,14 @@ bool exceeds(const Limit& limit, double value, double bound) {
   return limit.low_is_bad ? value < bound : std::abs(value) > bound;
 }
 
-std::string sentenceOf(const Figure& figure, const Limit& limit, Level level) {
+std::string sentenceOf(const Metric& metric, const Limit& limit, Level level) {
   const double bound = level == Level::kWrong ? limit.wrong : limit.suspect;
-  return fmt::format("{} is {:.4g}{}{}; a result {} {:g} is {}. {}", figure.name, figure.value,
-                     figure.unit.empty() ? "" : " ", figure.unit, limit.low_is_bad ? "below" : "above", bound,
+  return fmt::format("{} is {:.4g}{}{}; a result {} {:g} is {}. {}", metric.name, metric.value,
+                     metric.unit.empty() ? "" : " ", metric.unit, limit.low_is_bad ? "below" : "above", bound,
                      toText(level), limit.advice);
 }
 
-/// What a pose that looks like others means for the figures.
+/// What a pose that looks like others means for the metrics.
 std::string premiseOf(const AlikePoses& alike) {
   const std::string taken = fmt::format("The tracker took one of {} poses that look alike", alike.poses);
   if (!alike.compared)
@@ -92,15 +92,15 @@ std::string toText(Level level) {
   return level == Level::kGood ? "good" : level == Level::kSuspect ? "suspect" : "wrong";
 }
 
-Level levelOf(const std::string& figure, double value) {
-  const Limit* limit = findLimit(figure);
+Level levelOf(const std::string& metric, double value) {
+  const Limit* limit = findLimit(metric);
   if (limit == nullptr) return Level::kGood;
   if (exceeds(*limit, value, limit->wrong)) return Level::kWrong;
   return exceeds(*limit, value, limit->suspect) ? Level::kSuspect : Level::kGood;
 }
 
-std::string limitsOf(const std::string& figure) {
-  const Limit* limit = findLimit(figure);
+std::string limitsOf(const std::string& metric) {
+  const Limit* limit = findLimit(metric);
   if (limit == nullptr) return {};
   const char* side = limit->low_is_bad ? "below" : "above";
   const std::string suspect = fmt::format("suspect {} {:g}", side, limit->suspect);
@@ -110,10 +110,10 @@ std::string limitsOf(const std::string& figure) {
 Verdict judge(const Report& report) {
   Verdict verdict;
   if (report.alike) verdict.premise = premiseOf(*report.alike);
-  for (const Figure& figure : figures(report)) {
-    const Level level = levelOf(figure.name, figure.value);
+  for (const Metric& metric : metrics(report)) {
+    const Level level = levelOf(metric.name, metric.value);
     if (level != Level::kGood)
-      verdict.findings.push_back({level, sentenceOf(figure, *findLimit(figure.name), level)});
+      verdict.findings.push_back({level, sentenceOf(metric, *findLimit(metric.name), level)});
   }
   const bool has_depth = report.residual && !std::isnan(report.residual->within_15mm_of_measured);
   if (!report.vertex_error && !has_depth) {

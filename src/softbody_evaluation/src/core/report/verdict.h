@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "report/figures.h"
+#include "report/metrics.h"
 
 namespace softbody::evaluation {
 
@@ -13,27 +13,27 @@ enum class Level { kGood, kSuspect, kWrong };
 /// "good", "suspect" or "wrong".
 std::string toText(Level level);
 
-/// What one figure says against the result.
+/// What one metric says against the result.
 struct Finding {
   Level level = Level::kGood;
   std::string sentence;
 };
 
-/// What the figures of a result say together: the worst of its findings.
+/// What the metrics of a result say together: the worst of its findings.
 struct Verdict {
   Level level = Level::kGood;
   std::vector<Finding> findings;    ///< the worst first; empty for a good result
-  std::vector<std::string> limits;  ///< what the figures cannot show, in sentences
-  std::string premise = {};         ///< what to know before the figures, in sentences; empty: nothing
+  std::vector<std::string> limits;  ///< what the metrics cannot show, in sentences
+  std::string premise = {};         ///< what to know before the metrics, in sentences; empty: nothing
 };
 
-/// Judges a result by the limits of its figures. A result that was compared with nothing is suspect.
+/// Judges a result by the limits of its metrics. A result that was compared with nothing is suspect.
 Verdict judge(const Report& report);
 
-/// The level of one figure; kGood if it has no limits or no value.
-Level levelOf(const std::string& figure, double value);
-/// The limits of a figure in words; empty if it has none.
-std::string limitsOf(const std::string& figure);
+/// The level of one metric; kGood if it has no limits or no value.
+Level levelOf(const std::string& metric, double value);
+/// The limits of a metric in words; empty if it has none.
+std::string limitsOf(const std::string& metric);
 
 nlohmann::json toJson(const Verdict& verdict);
 

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "report/figures.h"
+#include "report/metrics.h"
 #include "report/model_report.h"
 #include "report/report_json.h"
 #include "report/report_text.h"

@@ -4,7 +4,7 @@
 
 namespace softbody::evaluation {
 
-/// What a figure measures, in one sentence. @param name as figures() gives it.
+/// What a metric measures, in one sentence. @param name as metrics() gives it.
 std::string meaningOf(const std::string& name);
 
 }  // namespace softbody::evaluation

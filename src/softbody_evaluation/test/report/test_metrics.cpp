@@ -1,4 +1,4 @@
-#include "report/figures.h"
+#include "report/metrics.h"
 
 #include <gtest/gtest.h>
 
@@ -23,15 +23,15 @@ Report reportWith(double error_m) {
   return report;
 }
 
-TEST(Figures, AForceThatIsNeverFoundHasNoPlace) {
+TEST(Metrics, AForceThatIsNeverFoundHasNoPlace) {
   Report report = reportWith(0.001);
   report.forces = ForceReport{3, summarize(std::vector<float>{2.0f}), 0.0, {}, 0.0};
-  for (const Figure& figure : figures(report))
-    EXPECT_EQ(figure.name.find("place of the force"), std::string::npos)
-        << figure.name << " " << figure.value;
+  for (const Metric& metric : metrics(report))
+    EXPECT_EQ(metric.name.find("place of the force"), std::string::npos)
+        << metric.name << " " << metric.value;
 }
 
-TEST(Compare, PutsTheSameFiguresSideBySide) {
+TEST(Compare, PutsTheSameMetricsSideBySide) {
   Report first = reportWith(0.001), second = reportWith(0.003);
   second.stages[{"replay", "registration", false}] = summarize(std::vector<float>{2.0f, 4.0f});
   const nlohmann::json rows = toJson(compare(first, second));

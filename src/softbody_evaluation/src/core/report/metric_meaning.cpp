@@ -1,10 +1,10 @@
-#include "report/figure_meaning.h"
+#include "report/metric_meaning.h"
 
 namespace softbody::evaluation {
 namespace {
 
 struct Meaning {
-  const char* begin;  ///< of the figure's name
+  const char* begin;  ///< of the metric's name
   const char* text;
 };
 
