@@ -5,13 +5,10 @@ import numpy as np
 import rospy
 from softbody_msgs.msg import MeshState, TrackingStatus
 
+from poses import array
 from recorder import Recorder
 
 MAX_MEAN_M = 0.004  # the bodies are 200 mm long, and lie 230 mm beside each other at the start
-
-
-def array(points):
-    return np.array([[p.x, p.y, p.z] for p in points])
 
 
 def errors(states, truths):

@@ -23,9 +23,8 @@ class CameraDriver(unittest.TestCase):
         image = recorder.wait_for("softbody/rgb/image_rect_color")[-1]
         self.assertEqual((image.header.frame_id, image.width, image.height), (color.frame, *color.size))
         self.assertEqual(recorder.wait_for("softbody/depth/camera_info")[-1].width, color.size[0])
-        seen = recorder.wait(lambda messages: next((m for m in messages["softbody/depth/image_rect"]
-                                                    if np.isfinite(np.frombuffer(m.data, np.float32)).any()), None),
-                             "an image with depth")
+        seen = recorder.first("softbody/depth/image_rect",
+                              lambda m: np.isfinite(np.frombuffer(m.data, np.float32)).any(), "an image with depth")
         self.assertEqual((seen.encoding, seen.header.frame_id), ("32FC1", color.frame))
         values = np.frombuffer(seen.data, np.float32).reshape(seen.height, seen.width)
         self.assertAlmostEqual(float(values[seen.height // 2, seen.width // 2]), DEPTH_M, places=3)

@@ -43,8 +43,8 @@ class CameraInput(unittest.TestCase):
     def expect_advice(self, namespace, *words):
         """/rosout has what the console has."""
         node = f"/{namespace}/camera_ingest"
-        log = self.recorder.wait(lambda seen: next((log for log in seen["rosout"] if log.name == node and all(
-            word in log.msg for word in words)), None), f"{node} to say: {words}")
+        log = self.recorder.first("rosout", lambda log: log.name == node and all(word in log.msg for word in words),
+                                  f"{node} to say: {words}")
         self.assertGreaterEqual(log.level, Log.INFO)
         return log.msg
 

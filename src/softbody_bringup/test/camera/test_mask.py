@@ -63,8 +63,7 @@ class Mask(unittest.TestCase):
 
     def frames(self, columns):
         """Messages of some frames with a mask of so many columns, once the body is tracked."""
-        self.recorder.wait(lambda seen: any(s.state == TrackingStatus.TRACKING for s in seen["softbody/status"]),
-                           "TRACKING")
+        self.recorder.first("softbody/status", lambda s: s.state == TrackingStatus.TRACKING, "TRACKING")
         self.segmentation.send(columns)
         return self.recorder.wait(
             lambda seen: len(self.segmentation.first(seen["softbody/targets"])) >= FRAMES
@@ -101,8 +100,7 @@ class Mask(unittest.TestCase):
         small = Image(height=2, width=3, encoding="mono8", step=3, data=bytes(6))
         subscriber = rospy.Subscriber("/softbody/rgb/image_rect_color", Image, lambda message: self.answer(small, message))
         self.recorder.wait_for_log("/softbody/feature_tracker", "the mask is 3x2", Log.ERROR)
-        self.recorder.wait(lambda seen: any("the mask is 3x2" in s.reason for s in seen["softbody/status"]),
-                           "a status that says so")
+        self.recorder.first("softbody/status", lambda s: "the mask is 3x2" in s.reason, "a status that says so")
         subscriber.unregister()
 
     def answer(self, mask, image):

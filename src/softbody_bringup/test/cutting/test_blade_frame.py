@@ -12,6 +12,7 @@ from sensor_msgs.msg import CameraInfo
 from softbody_msgs.msg import Targets
 from tf2_ros import StaticTransformBroadcaster, TransformBroadcaster
 
+from poses import array
 from recorder import Recorder
 
 CAMERA, BENCH, LATE, NOWHERE = "camera_color_optical_frame", "bench", "late", "nowhere"
@@ -72,7 +73,7 @@ class BladeFrame(unittest.TestCase):
 
     @staticmethod
     def targets_of(message):
-        return np.array([[t.position.x, t.position.y, t.position.z] for t in message.targets])
+        return array(t.position for t in message.targets)
 
     def near_the_blade(self, message):
         return np.abs(self.targets_of(message)[:, 0] - self.middle[0]).min() < NEAR_M

@@ -41,8 +41,8 @@ class CarriedBlade(unittest.TestCase):
 
     def test_2_the_blade_follows_the_frame_and_cuts(self):
         poses = rospy.Subscriber("/ground_truth/tool/pose", PoseStamped, self.send)
-        cut = self.recorder.wait(lambda seen: next((topology for topology in seen["softbody/surface/topology"]
-                                                    if max(topology.triangle_bodies) > 0), None), "two pieces")
+        cut = self.recorder.first("softbody/surface/topology", lambda topology: max(topology.triangle_bodies) > 0,
+                                  "two pieces")
         poses.unregister()
         self.assertEqual(set(cut.triangle_bodies), {0, 1})
         seen = self.recorder.wait_for("softbody/tool/pose")

@@ -9,6 +9,7 @@ from softbody_msgs.msg import MeshTopology
 from softbody_msgs.srv import CutBody
 from std_srvs.srv import Trigger
 
+from poses import array
 from processes import process_of, status_of
 
 PATIENCE_S = 120.0
@@ -29,7 +30,7 @@ class CutMemory(unittest.TestCase):
     def slice_up(self, body, count, tilt):
         """Slices across the longest axis, in random order. @param tilt of the planes; most of them cross at 0.1."""
         topology = rospy.wait_for_message(f"/{body}/surface/topology", MeshTopology, PATIENCE_S)
-        rest = np.array([[p.x, p.y, p.z] for p in topology.rest_vertices])
+        rest = array(topology.rest_vertices)
         low, high = rest.min(axis=0), rest.max(axis=0)
         axis = np.eye(3)[np.argmax(high - low)]
         rospy.wait_for_service(f"/{body}/surface/cut", PATIENCE_S)

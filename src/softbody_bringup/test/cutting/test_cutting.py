@@ -12,13 +12,10 @@ from std_srvs.srv import Trigger
 from tf2_ros import StaticTransformBroadcaster
 from visualization_msgs.msg import Marker, MarkerArray
 
+from poses import array
 from recorder import Recorder
 
 FRAME = "made_by_hand"
-
-
-def array(points):
-    return np.array([[p.x, p.y, p.z] for p in points])
 
 
 class Cutting(unittest.TestCase):
@@ -85,9 +82,7 @@ class Cutting(unittest.TestCase):
         self.assertLess(np.abs(lines[:, 0] - lines[:, 0].mean()).max(), 0.02)
 
     def expect_cut_lines(self, state_stamp):
-        lines = self.recorder.wait(
-            lambda seen: next((m for m in seen["softbody/cut/marker"] if m.header.stamp == state_stamp), None),
-            "cut lines")
+        lines = self.recorder.first("softbody/cut/marker", lambda m: m.header.stamp == state_stamp, "cut lines")
         self.assertEqual(lines.action, Marker.ADD)
         self.assertGreater(len(lines.points), 8)
         self.recorder.wait(

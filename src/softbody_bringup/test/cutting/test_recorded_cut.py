@@ -16,8 +16,8 @@ class RecordedCut(unittest.TestCase):
         recorder = Recorder(softbody__surface__topology=MeshTopology)
         whole = recorder.wait_for("softbody/surface/topology")[0]
         self.assertEqual(set(whole.triangle_bodies), {0})
-        cut = recorder.wait(lambda seen: next((topology for topology in seen["softbody/surface/topology"]
-                                               if max(topology.triangle_bodies) > 0), None), "two pieces")
+        cut = recorder.first("softbody/surface/topology", lambda topology: max(topology.triangle_bodies) > 0,
+                             "two pieces")
         self.assertEqual(set(cut.triangle_bodies), {0, 1})
         self.assertTrue(any(cut.cut_triangles))
         poses.unregister()

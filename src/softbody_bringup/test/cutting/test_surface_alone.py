@@ -17,14 +17,11 @@ from sensor_msgs.msg import PointCloud2
 from sensor_msgs import point_cloud2
 from softbody_msgs.srv import ClosestPoint, CutBody, SaveMesh
 
+from poses import array
 from recorder import Recorder
 
 FRAME = "made_by_hand"
 HALF_SIZE_M = np.array([0.11, 0.06, 0.03])
-
-
-def array(points):
-    return np.array([[p.x, p.y, p.z] for p in points])
 
 
 def points32(rows):
@@ -81,9 +78,8 @@ class SurfaceAlone(unittest.TestCase):
         state.header.stamp = state.observed = rospy.Time(seconds)
         state.header.frame_id = FRAME
         self.state_publisher.publish(state)
-        return self.recorder.wait(
-            lambda seen: next((s for s in seen["softbody/surface/state"] if s.header.stamp == state.header.stamp), None),
-            f"the surface state of {seconds} s")
+        return self.recorder.first("softbody/surface/state", lambda s: s.header.stamp == state.header.stamp,
+                                   f"the surface state of {seconds} s")
 
     def test_reproduces_affine_maps(self):
         rest = array(self.surface.rest_vertices)
@@ -197,9 +193,8 @@ class SurfaceAlone(unittest.TestCase):
         later = copy.deepcopy(self.topology)
         later.revision = 7
         self.topology_publisher.publish(later)
-        answer = self.recorder.wait(
-            lambda seen: next((s for s in seen["softbody/surface/state"] if s.header.stamp == state.header.stamp), None),
-            "the state that was held")
+        answer = self.recorder.first("softbody/surface/state", lambda s: s.header.stamp == state.header.stamp,
+                                     "the state that was held")
         self.assertEqual(answer.revision, 7)
         self.recorder.wait(lambda seen: seen["softbody/surface/topology"][-1].revision == 7, "revision 7")
         self.topology_publisher.publish(self.topology)
@@ -223,9 +218,8 @@ class SurfaceAlone(unittest.TestCase):
         topologies = self.recorder.messages["softbody/surface/topology"][before:]
         self.assertEqual({topology.revision for topology in topologies}, {0})
         self.assertEqual(self.surface_for(self.corners, 42, revision=1).revision, 1)
-        topology = self.recorder.wait(
-            lambda seen: next((t for t in seen["softbody/surface/topology"] if t.revision == 1), None),
-            "the surface's topology of revision 1")
+        topology = self.recorder.first("softbody/surface/topology", lambda t: t.revision == 1,
+                                       "the surface's topology of revision 1")
         self.assertEqual(topology.header.stamp, rospy.Time(40))
         self.topology_publisher.publish(self.topology)
         self.recorder.wait(lambda seen: seen["softbody/surface/topology"][-1].revision == 0, "revision 0 again")

@@ -66,9 +66,8 @@ class Graph(unittest.TestCase):
         self.assertEqual((len(surface.rest_vertices), len(surface.triangles)), (522, 1040))
 
     def test_the_body_is_tracked(self):
-        self.recorder.wait(
-            lambda seen: any(status.state == TrackingStatus.TRACKING for status in seen["softbody/status"]),
-            "a status of TRACKING")
+        self.recorder.first("softbody/status", lambda status: status.state == TrackingStatus.TRACKING,
+                            "a status of TRACKING")
 
     def test_targets_name_tets_of_the_topology(self):
         tets = len(self.recorder.wait_for("softbody/volume/topology")[-1].tets)
@@ -87,8 +86,7 @@ class Graph(unittest.TestCase):
 
     def test_forces_on_the_body_come_while_somebody_listens(self):
         recorder = Recorder(softbody__forces=Forces, softbody__forces__marker=MarkerArray)
-        bent = recorder.wait(lambda seen: next((m for m in seen["softbody/forces"] if m.patches), None),
-                             "forces on the body")
+        bent = recorder.first("softbody/forces", lambda m: m.patches, "forces on the body")
         self.assertEqual((bent.header.frame_id, bent.wrench_frame), (OPTICAL_FRAME, "camera_link"))
         self.assertFalse(bent.in_newtons)  # the sponge's stiffness is a guess
         arrows = recorder.wait(lambda seen: next((m.markers for m in seen["softbody/forces/marker"]
@@ -99,15 +97,12 @@ class Graph(unittest.TestCase):
 
     def test_every_node_tells_its_stage_times(self):
         for name in NODES:
-            self.recorder.wait(
-                lambda seen: any(timing.node == name for timing in seen["softbody/timing"]),
-                f"stage times of {name}")
+            self.recorder.first("softbody/timing", lambda timing: timing.node == name, f"stage times of {name}")
 
     def test_the_aggregator_has_a_group_for_each_node_and_leaves_nothing_over(self):
         groups = {"Camera": "camera_ingest", "Tracking": "feature_tracker", "Simulation": "simulator", "Surface": "surface"}
-        array = Recorder(diagnostics_agg=DiagnosticArray).wait(
-            lambda seen: next((m for m in seen["diagnostics_agg"] if sum(s.name.count("/") == 3 for s in m.status) >= 4),
-                              None), "a status of each node in its group")
+        array = Recorder(diagnostics_agg=DiagnosticArray).first(
+            "diagnostics_agg", lambda m: sum(s.name.count("/") == 3 for s in m.status) >= 4, "a status of each node")
         names = {status.name for status in array.status}
         self.assertEqual({name for name in names if name.count("/") < 3}, {"/softbody"} | {f"/softbody/{g}" for g in groups})
         for group, node in groups.items():

@@ -8,15 +8,12 @@ from geometry_msgs.msg import WrenchStamped
 from softbody_msgs.msg import MeshState, MeshTopology, TrackingStatus
 from std_msgs.msg import Bool
 
+from poses import array
 from recorder import Recorder
 
 HELD_X_M = 0.05  # rest vertices beyond it are near the fingers
 MAX_MEAN_M, MAX_HELD_M = 0.002, 0.004
 DELAY = rospy.Duration(1.0)  # of the answer to the gripper on a loaded machine; it is closed for 2.3 s
-
-
-def array(points):
-    return np.array([[p.x, p.y, p.z] for p in points])
 
 
 class Grasp(unittest.TestCase):

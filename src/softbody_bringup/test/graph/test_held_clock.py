@@ -31,8 +31,8 @@ class HeldClock(unittest.TestCase):
         cls.buffer = tf2_ros.Buffer()
         cls.listener = tf2_ros.TransformListener(cls.buffer)
         cls.service = staticmethod(rospy.ServiceProxy("/softbody/feature_tracker/set_pose", SetPose))
-        cls.recorder.wait(lambda seen: any(not targets.reset for targets in seen["softbody/targets"]),
-                          "targets that go on from the last state")
+        cls.recorder.first("softbody/targets", lambda targets: not targets.reset,
+                           "targets that go on from the last state")
         cls.wait_for_true_frame()
         cls.hold()
 

@@ -8,6 +8,7 @@ import rospy
 from softbody_msgs.msg import MeshState, TrackingStatus
 from tf2_msgs.msg import TFMessage
 
+from poses import array
 from recorder import Recorder
 
 FRAME, CAMERA = "world", "camera_link"
@@ -37,10 +38,6 @@ class Arm:
                 self.publisher.publish(self.held[0])
 
 
-def array(points):
-    return np.array([[p.x, p.y, p.z] for p in points])
-
-
 class MovingCamera(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -51,8 +48,8 @@ class MovingCamera(unittest.TestCase):
     def wait_for_status(self, what, condition):
         """A status of a frame from now on."""
         start = rospy.Time.now()
-        return self.recorder.wait(lambda seen: next((status for status in seen["softbody/status"]
-                                                     if status.header.stamp > start and condition(status)), None), what)
+        return self.recorder.first("softbody/status", lambda status: status.header.stamp > start and condition(status),
+                                   what)
 
     def wait_for_skipped(self, what):
         return self.wait_for_status(what, lambda status: "tf does not say where camera_color_optical_frame is in "

@@ -7,22 +7,11 @@ import rospy
 import tf2_ros
 from softbody_msgs.msg import Cut, MeshState
 
+from poses import array, placed
 from recorder import Recorder
 
 FRAME, CAMERA = "rig", "camera_color_optical_frame"
 MAX_ERROR_M = 0.005
-
-
-def array(points):
-    return np.array([[p.x, p.y, p.z] for p in points])
-
-
-def rotation(q):
-    """3 x 3 of a geometry_msgs/Quaternion."""
-    x, y, z, w = q.x, q.y, q.z, q.w
-    return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-                     [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-                     [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]])
 
 
 class OutputFrame(unittest.TestCase):
@@ -44,8 +33,7 @@ class OutputFrame(unittest.TestCase):
         self.assertEqual(state.header.frame_id, FRAME)
         self.assertEqual(truth.header.frame_id, CAMERA)
         transform = self.buffer.lookup_transform(FRAME, CAMERA, rospy.Time(0), rospy.Duration(30)).transform
-        at = transform.translation
-        expected = array(truth.vertices) @ rotation(transform.rotation).T + [at.x, at.y, at.z]
+        expected = placed(transform.translation, transform.rotation, array(truth.vertices))
         errors = np.linalg.norm(array(state.vertices) - expected, axis=1)
         self.assertLess(errors.mean(), MAX_ERROR_M)
 

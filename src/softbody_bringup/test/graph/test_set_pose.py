@@ -30,8 +30,8 @@ class SetPoseByHand(unittest.TestCase):
     @classmethod
     def wait_for_tracking(cls, since):
         """Until the simulator, too, has taken the start."""
-        cls.recorder.wait(lambda seen: any(not targets.reset for targets in seen["softbody/targets"][since:]),
-                          "targets that go on from the last state")
+        cls.recorder.first("softbody/targets", lambda targets: not targets.reset,
+                           "targets that go on from the last state", since=since)
         cls.recorder.wait(lambda seen: seen["softbody/status"][-1].state == TrackingStatus.TRACKING, "TRACKING")
 
     def test_the_body_is_tracked_in_the_pose_meant(self):
@@ -41,8 +41,7 @@ class SetPoseByHand(unittest.TestCase):
             before = len(self.recorder.messages["softbody/targets"])
             response = self.service(pose_in(TRUE_FRAME, (ROUGH_M, 0.5 * ROUGH_M, -ROUGH_M), turn))
             self.assertTrue(response.success, response.message)
-            first = self.recorder.wait(
-                lambda seen: next((t for t in seen["softbody/targets"][before:] if t.reset), None), "a start")
+            first = self.recorder.first("softbody/targets", lambda t: t.reset, "a start", since=before)
             found = placed(first.body_pose.position, first.body_pose.orientation, CORNERS_M)
             self.assertLess(np.linalg.norm(found - expected, axis=1).max(), MAX_ERROR_M, turn)
             self.wait_for_tracking(self.recorder.messages["softbody/targets"].index(first))
@@ -51,8 +50,7 @@ class SetPoseByHand(unittest.TestCase):
         before = len(self.recorder.messages["softbody/targets"])
         response = rospy.ServiceProxy("/softbody/feature_tracker/find_again", Trigger)()
         self.assertTrue(response.success, response.message)
-        first = self.recorder.wait(
-            lambda seen: next((t for t in seen["softbody/targets"][before:] if t.reset), None), "a start")
+        first = self.recorder.first("softbody/targets", lambda t: t.reset, "a start", since=before)
         self.wait_for_tracking(self.recorder.messages["softbody/targets"].index(first))
 
     def test_what_cannot_be_a_pose_is_refused_with_its_reason(self):

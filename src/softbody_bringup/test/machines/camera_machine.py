@@ -16,6 +16,7 @@ from softbody_msgs.msg import MeshState, MeshTopology, TrackingStatus
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.append(os.path.join(HERE, "..", "shared"))
 from compressed_bag import BAG  # pylint: disable=wrong-import-position
+from poses import array  # pylint: disable=wrong-import-position
 from recorder import Recorder  # pylint: disable=wrong-import-position
 
 RATE_HZ = 5
@@ -43,7 +44,7 @@ class Camera(threading.Thread):
                 rate.sleep()
 
     def send(self, frame, now):
-        self.truths[now] = np.array([[p.x, p.y, p.z] for p in frame[TRUTH].vertices])
+        self.truths[now] = array(frame[TRUTH].vertices)
         for name, publisher in self.publishers.items():
             frame[name].header.stamp = now
             publisher.publish(frame[name])
@@ -59,7 +60,7 @@ def main(frames, offset_s):
                   f"{frames} frames TRACKING")
     states = recorder.wait_for("softbody/surface/state", frames)
     compared = [state for state in states if state.header.stamp in camera.truths]
-    errors = [np.linalg.norm([[p.x, p.y, p.z] for p in state.vertices] - camera.truths[state.header.stamp], axis=1).mean()
+    errors = [np.linalg.norm(array(state.vertices) - camera.truths[state.header.stamp], axis=1).mean()
               for state in compared]
     deviations = [np.mean(state.standard_deviation) for state in compared]
     print(json.dumps({"states": len(states), "compared": len(compared), "mean_error_m": float(np.mean(errors)),

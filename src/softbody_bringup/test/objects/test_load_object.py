@@ -8,7 +8,7 @@ import rospy
 import softbody
 from softbody_msgs.msg import CutHistory
 
-from hand_made_frames import Frames
+from hand_made_frames import EndlessFrames
 from recorder import Recorder
 
 CONFIG = rospkg.RosPack().get_path("softbody_bringup") + "/config"
@@ -24,7 +24,7 @@ class LoadObject(unittest.TestCase):
         cls.body = softbody.Body(service_timeout_s=60)
         cls.states = []
         cls.body.on_state(cls.states.append)
-        cls.frames = Frames()
+        cls.frames = EndlessFrames()
         cls.frames.start()
         cls.addClassCleanup(cls.frames.stopped.set)
         cls.body.wait(timeout_s=60)

@@ -27,11 +27,10 @@ class LoadObjectLive(unittest.TestCase):
     def expect_tracking(self, path, revision):
         """The camera shows the sponge."""
         moment = rospy.Time.now()
-        self.recorder.wait(lambda seen: any(status.header.stamp > moment and status.state == TrackingStatus.TRACKING
-                                            for status in seen["softbody/status"]), f"TRACKING of {path}")
-        self.recorder.wait(lambda seen: any(state.header.stamp > moment and len(state.vertices) == VERTICES[path]
-                                            and state.revision >= revision for state in seen["softbody/surface/state"]),
-                           f"a state of {path}")
+        self.recorder.first("softbody/status", lambda s: s.header.stamp > moment and s.state == TrackingStatus.TRACKING,
+                            f"TRACKING of {path}")
+        self.recorder.first("softbody/surface/state", lambda s: s.header.stamp > moment and s.revision >= revision
+                            and len(s.vertices) == VERTICES[path], f"a state of {path}")
 
     def expect_topologies(self, path, revision):
         """From now on there are topologies of this object, of one revision or later."""

@@ -25,8 +25,8 @@ class CompressedPlayback(unittest.TestCase):
         launch = subprocess.Popen(["roslaunch", "softbody_bringup", "playback.launch", f"bag:={bag}", "loop:=true",
                                    f"object:={SHARE}/config/sponge.yaml", *arguments])
         try:
-            recorder.wait(lambda seen: any(status.state == TrackingStatus.TRACKING for status in seen["softbody/status"]),
-                          f"TRACKING in {bag} with {arguments}")
+            recorder.first("softbody/status", lambda status: status.state == TrackingStatus.TRACKING,
+                           f"TRACKING in {bag} with {arguments}")
             recorder.wait_for("softbody/surface/state", 5)
             return [rospy.get_param(f"/softbody/camera_ingest/{stream}_transport") for stream in ("color", "depth")]
         finally:

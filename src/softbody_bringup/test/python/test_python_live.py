@@ -2,7 +2,6 @@
 import collections
 import os
 import subprocess
-import threading
 import time
 import unittest
 from unittest import mock
@@ -10,39 +9,17 @@ from unittest import mock
 import numpy as np
 import rospkg
 import rospy
-from geometry_msgs.msg import Pose, Quaternion
 from sensor_msgs.msg import PointCloud2
-from softbody_msgs.msg import MeshState, Targets
+from softbody_msgs.msg import MeshState
 from softbody_msgs.srv import Release, SetPose, SetPoseResponse
 from std_srvs.srv import Trigger, TriggerResponse
 
 import softbody
 
+from hand_made_frames import PERIOD, EndlessFrames
 from recorder import Recorder
 
 EXAMPLES = rospkg.RosPack().get_path("softbody_python") + "/examples"
-PERIOD = rospy.Duration(nsecs=33333333)
-
-
-class Frames(threading.Thread):
-    """Sends frames without targets, as a tracker does whose camera sees nothing, until it is stopped."""
-
-    def __init__(self):
-        super().__init__(daemon=True)
-        self.publisher = rospy.Publisher("/softbody/targets", Targets, queue_size=1)
-        self.stamp, self.revision, self.stopped = rospy.Time(1000), 0, threading.Event()
-        rospy.Subscriber("/softbody/volume/state", MeshState, self.follow)
-
-    def follow(self, state):
-        self.revision = state.revision
-
-    def run(self):
-        while not self.stopped.wait(0.033):
-            message = Targets(revision=self.revision, body_pose=Pose(orientation=Quaternion(w=1.0)),
-                              reset=self.stamp < rospy.Time(1003))
-            self.stamp += PERIOD
-            message.header.stamp, message.header.frame_id = self.stamp, "made_by_hand"
-            self.publisher.publish(message)
 
 
 def volume_of(state):
@@ -57,7 +34,7 @@ class PythonLive(unittest.TestCase):
         # Own subscriptions of a program work beside those of Body, before it and after it.
         cls.recorder = Recorder(softbody__surface__state=MeshState)
         cls.body = softbody.Body(service_timeout_s=60)
-        cls.frames = Frames()
+        cls.frames = EndlessFrames()
         cls.frames.start()
         cls.addClassCleanup(cls.frames.stopped.set)
         cls.first = cls.body.wait(timeout_s=60)
@@ -65,8 +42,8 @@ class PythonLive(unittest.TestCase):
 
     def test_states_are_the_messages(self):
         state = self.body.wait(timeout_s=60, after=self.first)
-        message = self.recorder.wait(lambda seen: next((m for m in seen["softbody/surface/state"]
-                                                        if m.header.stamp == state.stamp), None), "the same state")
+        message = self.recorder.first("softbody/surface/state", lambda m: m.header.stamp == state.stamp,
+                                      "the same state")
         np.testing.assert_array_equal(state.vertices, np.float32([[p.x, p.y, p.z] for p in message.vertices]))
         self.assertEqual((state.frame, state.revision), ("made_by_hand", message.revision))
         self.assertIsNotNone(state.volume)

@@ -15,10 +15,10 @@ class Restart(unittest.TestCase):
         self.expect_tracking_after(rospy.Time())
 
     def expect_tracking_after(self, moment):
-        self.recorder.wait(lambda seen: any(state.header.stamp > moment for state in seen["softbody/surface/state"]),
-                           f"a state of an image after {moment.to_sec():.3f}")
-        self.recorder.wait(lambda seen: any(status.header.stamp > moment and status.state == TrackingStatus.TRACKING
-                                            for status in seen["softbody/status"]), "TRACKING")
+        self.recorder.first("softbody/surface/state", lambda state: state.header.stamp > moment,
+                            f"a state of an image after {moment.to_sec():.3f}")
+        self.recorder.first("softbody/status", lambda s: s.header.stamp > moment and s.state == TrackingStatus.TRACKING,
+                            "TRACKING")
 
     def expect_return(self, node, number):
         process = kill(node, number)

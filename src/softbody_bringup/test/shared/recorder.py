@@ -41,11 +41,14 @@ class Recorder:
         self.wait(lambda messages: len(messages[name]) >= count, f"{count} messages on /{name}")
         return list(self.messages[name])
 
+    def first(self, name, condition, what, since=0):
+        """The first message of a topic that meets the condition. @param since that number of messages of it."""
+        return self.wait(lambda seen: next((m for m in seen[name][since:] if condition(m)), None), what)
+
     def wait_for_log(self, node, words, level=Log.WARN):
         """A message of a node that contains the words, of a level or worse. Needs rosout=Log."""
-        return self.wait(lambda messages: next((log for log in messages["rosout"] if log.level >= level
-                                                and log.name == node and words in log.msg), None),
-                         f"{node} to say: {words}")
+        return self.first("rosout", lambda log: log.level >= level and log.name == node and words in log.msg,
+                          f"{node} to say: {words}")
 
     def wait_for_status(self, name, level, words):
         """Diagnostics from now on whose names end so, with the words. Needs diagnostics=DiagnosticArray."""

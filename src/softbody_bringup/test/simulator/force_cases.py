@@ -2,16 +2,13 @@
 import numpy as np
 import rospy
 from geometry_msgs.msg import Point32, WrenchStamped
+from poses import vector
 from recorder import Recorder
 from softbody_msgs.msg import Forces
 from softbody_msgs.srv import Pin
 from visualization_msgs.msg import Marker, MarkerArray
 
 FAR = [0.0, 0.0, 5.0]
-
-
-def vector(v):
-    return np.array([v.x, v.y, v.z])
 
 
 class ForceCases:
@@ -98,9 +95,8 @@ class ForceCases:
         heard = self.hear_forces()
         self.forces_of_a_frame(heard, self.bent())
         stamp = self.stamp
-        heard.wait(lambda seen: next((m for m in seen["softbody/forces/marker"]
-                                      if m.markers[0].header.stamp == stamp and len(m.markers) > 1), None), "arrows")
+        heard.first("softbody/forces/marker", lambda m: m.markers[0].header.stamp == stamp and len(m.markers) > 1,
+                    "arrows")
         self.step()
-        last = heard.wait(lambda seen: next((m for m in seen["softbody/forces/marker"]
-                                             if m.markers[0].header.stamp == self.stamp), None), "no arrows")
+        last = heard.first("softbody/forces/marker", lambda m: m.markers[0].header.stamp == self.stamp, "no arrows")
         self.assertEqual([marker.action for marker in last.markers], [Marker.DELETEALL])

@@ -1,14 +1,11 @@
 """Test cases of a gripper that closes, for the test of the surroundings."""
 import numpy as np
 import rospy
+from poses import array
 from std_msgs.msg import Bool
 from std_srvs.srv import SetBool
 
 FAR = [0.0, 0.0, 5.0]
-
-
-def array(points):
-    return np.array([[p.x, p.y, p.z] for p in points])
 
 
 class GripperCases:

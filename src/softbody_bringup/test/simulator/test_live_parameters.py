@@ -9,11 +9,13 @@ import rosnode
 import rospy
 from dynamic_reconfigure import DynamicReconfigureCallbackException
 from dynamic_reconfigure.client import Client
-from geometry_msgs.msg import Point32, Pose, Quaternion
+from geometry_msgs.msg import Point32
 from rosgraph_msgs.msg import Log
-from softbody_msgs.msg import MeshState, Target, Targets, TetTopology
+from softbody_msgs.msg import MeshState, Target, TetTopology
 from softbody_msgs.srv import SetMaterial
 
+from hand_made_frames import Frames
+from poses import array
 from recorder import Recorder
 
 NODE = "/softbody/simulator"
@@ -29,13 +31,12 @@ class LiveParameters(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.recorder = Recorder(softbody__volume__topology=TetTopology, softbody__volume__state=MeshState, rosout=Log)
-        cls.publisher = rospy.Publisher("/softbody/targets", Targets, queue_size=1)
+        cls.frames = Frames(cls.recorder, "world")
         topology = cls.recorder.wait_for("softbody/volume/topology")[-1]
-        cls.rest = np.array([[p.x, p.y, p.z] for p in topology.rest_vertices])
+        cls.rest = array(topology.rest_vertices)
         centres = cls.rest[np.array([tet.vertex_indices for tet in topology.tets])].mean(axis=1)
         cls.targets = [Target(kind=Target.MANUAL, tet=i, barycentric=[0.25] * 4, weight=1.0, position=Point32(*centre))
                        for i, centre in enumerate(centres)]
-        cls.stamp = rospy.Time(1000)
         cls.client = Client(NODE, timeout=60)
         cls.initial = cls.client.get_configuration(timeout=60)
 
@@ -44,17 +45,11 @@ class LiveParameters(unittest.TestCase):
         self.client.update_configuration({"target_stiffness": STIFFNESS, "load_fade_s": 0.0, **MATERIAL})
 
     def wait_for_simulator(self):
-        self.recorder.wait(lambda _: self.publisher.get_num_connections() > 0, "a simulator that listens")
+        self.frames.wait_for_simulator()
         rospy.wait_for_service(NODE + "/set_parameters", 60)
 
     def step(self, targets, reset=False):
-        type(self).stamp += rospy.Duration(nsecs=33333333)
-        message = Targets(targets=targets, reset=reset, body_pose=Pose(orientation=Quaternion(w=1.0)))
-        message.header.stamp, message.header.frame_id = self.stamp, "world"
-        self.publisher.publish(message)
-        return self.recorder.wait(
-            lambda seen: next((s for s in seen["softbody/volume/state"] if s.header.stamp == self.stamp), None),
-            "the volume state of a frame")
+        return self.frames.step(targets=targets, reset=reset)
 
     def depth(self, reset=True):
         """How far the middle of the body sinks [m]."""
@@ -136,7 +131,7 @@ class LiveParameters(unittest.TestCase):
         change()
         for _ in range(5):
             state = self.step([])
-        return np.array([[p.x, p.y, p.z] for p in state.vertices])
+        return array(state.vertices)
 
     def test_a_simulator_that_starts_again_keeps_the_values(self):
         self.client.update_configuration({"target_stiffness": 0.5 * STIFFNESS, "youngs_modulus_pa": 4.0e4})

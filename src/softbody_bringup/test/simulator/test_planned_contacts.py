@@ -7,23 +7,17 @@ import rospy
 import softbody
 import tf2_ros
 from geometry_msgs.msg import Point, Point32, Pose, Quaternion, TransformStamped, Vector3
-from softbody_msgs.msg import (MeshState, MotionPlan, PlannedMotion, PlannedObstacle, PlannedPin, PlannedRelease, Targets,
+from softbody_msgs.msg import (MeshState, MotionPlan, PlannedMotion, PlannedObstacle, PlannedPin, PlannedRelease,
                                TetTopology)
 from softbody_msgs.srv import Pin, Predict
 from std_msgs.msg import Header
 
+from hand_made_frames import Frames
+from poses import array, vector
 from recorder import PATIENCE_S, Recorder
 
 DENSITY_KG_M3, GRAVITY_M_S2 = 30.0, 9.81
 FRAMES_TO_REST = 40
-
-
-def array(points):
-    return np.array([[p.x, p.y, p.z] for p in points])
-
-
-def vector(v):
-    return np.array([v.x, v.y, v.z])
 
 
 def shifted(*shift):
@@ -36,13 +30,12 @@ class PlannedContacts(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.recorder = Recorder(softbody__volume__topology=TetTopology, softbody__volume__state=MeshState)
-        cls.targets = rospy.Publisher("/softbody/targets", Targets, queue_size=1)
         topology = cls.recorder.wait_for("softbody/volume/topology")[-1]
         cls.rest = array(topology.rest_vertices)
         edges = cls.rest[[tet.vertex_indices for tet in topology.tets]]
         volume = np.linalg.det(edges[:, 1:] - edges[:, :1]).sum() / 6.0
         cls.weight = DENSITY_KG_M3 * GRAVITY_M_S2 * volume
-        cls.recorder.wait(lambda _: cls.targets.get_num_connections() > 0, "a simulator that listens")
+        frames = Frames(cls.recorder, "world")
         cls.predict = rospy.ServiceProxy("/softbody/simulator/predict", Predict)
         cls.low, cls.high = cls.rest.min(axis=0), cls.rest.max(axis=0)
         cls.left, cls.right = cls.rest[:, 0] < cls.low[0] + 0.03, cls.rest[:, 0] > cls.high[0] - 0.03
@@ -50,22 +43,13 @@ class PlannedContacts(unittest.TestCase):
             if frame == FRAMES_TO_REST - 2:
                 hold = rospy.ServiceProxy("/softbody/simulator/pin", Pin)
                 assert hold(name="hand", min=Point32(-1, -1, -1), max=Point32(cls.low[0] + 0.03, 1, 1)).success
-            cls.present = array(cls.step(frame).vertices)
+            state = frames.step(reset=frame == 0, body_pose=shifted(0.0, 0.0, -0.03 - cls.low[2]))
+        cls.present = array(state.vertices)
         cls.gripper = cls.present[cls.right].mean(axis=0)
         cls.broadcaster = tf2_ros.StaticTransformBroadcaster()
         transform = TransformStamped(child_frame_id="gripper", header=Header(frame_id="world"))
         transform.transform.translation, transform.transform.rotation = Vector3(*cls.gripper), Quaternion(w=1.0)
         cls.broadcaster.sendTransform(transform)
-
-    @classmethod
-    def step(cls, frame):
-        stamp = rospy.Time(100) + frame * rospy.Duration(nsecs=33333333)
-        message = Targets(reset=frame == 0, body_pose=shifted(0.0, 0.0, -0.03 - cls.low[2]))
-        message.header.stamp, message.header.frame_id = stamp, "world"
-        cls.targets.publish(message)
-        return cls.recorder.wait(
-            lambda seen: next((s for s in seen["softbody/volume/state"] if s.header.stamp == stamp), None),
-            "the volume state of a frame")
 
     def states(self, times, **plan):
         """Of one plan. tf may need a moment to know the gripper."""

@@ -47,7 +47,7 @@ class PoseMarker(unittest.TestCase):
         self.assertAlmostEqual(marker.pose.position.z, start.position.z)
 
     def test_track_from_here(self):
-        self.recorder.wait(lambda seen: any(not t.reset for t in seen["softbody/targets"]), "a body that is followed")
+        self.recorder.first("softbody/targets", lambda t: not t.reset, "a body that is followed")
         self.recorder.wait(lambda _: self.buffer.can_transform(OPTICAL_FRAME, TRUE_FRAME, rospy.Time(0)), "the truth on tf")
         true = self.buffer.lookup_transform(OPTICAL_FRAME, TRUE_FRAME, rospy.Time(0)).transform
         expected = placed(true.translation, true.rotation, CORNERS_M @ rotation(HALF_TURN).T)
@@ -64,7 +64,6 @@ class PoseMarker(unittest.TestCase):
         self.assertFalse(any(t.reset for t in self.recorder.messages["softbody/targets"][before:]), "moving alone does nothing")
         before = len(self.recorder.messages["softbody/targets"])
         self.send(InteractiveMarkerFeedback.MENU_SELECT, pose, marker.menu_entries[0].id)
-        first = self.recorder.wait(
-            lambda seen: next((t for t in seen["softbody/targets"][before:] if t.reset), None), "a start")
+        first = self.recorder.first("softbody/targets", lambda t: t.reset, "a start", since=before)
         found = placed(first.body_pose.position, first.body_pose.orientation, CORNERS_M)
         self.assertLess(np.linalg.norm(found - expected, axis=1).max(), MAX_ERROR_M)

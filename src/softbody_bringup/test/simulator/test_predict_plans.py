@@ -11,9 +11,10 @@ import softbody
 from actionlib_msgs.msg import GoalStatus
 from geometry_msgs.msg import Point, Point32, Pose, Quaternion
 from softbody_msgs.msg import (MeshState, MotionPlan, PlannedMotion, PlannedPin, PredictPlansAction, PredictPlansGoal,
-                               Targets, TetTopology)
+                               TetTopology)
 from softbody_msgs.srv import Pin, Predict
 
+from hand_made_frames import Frames
 from recorder import PATIENCE_S, Recorder
 
 PERIOD_S = 1.0 / 30.0
@@ -41,41 +42,23 @@ def long_goal():
 
 
 class PredictPlans(unittest.TestCase):
-    frame = 0
-
     @classmethod
     def setUpClass(cls):
         cls.recorder = Recorder(softbody__volume__topology=TetTopology, softbody__volume__state=MeshState)
-        cls.targets = rospy.Publisher("/softbody/targets", Targets, queue_size=1000)
         cls.recorder.wait_for("softbody/volume/topology")
-        cls.recorder.wait(lambda _: cls.targets.get_num_connections() > 0, "a simulator that listens")
+        cls.frames = Frames(cls.recorder, "world")
         cls.predict = rospy.ServiceProxy("/softbody/simulator/predict", Predict)
         hold = rospy.ServiceProxy("/softbody/simulator/pin", Pin)
         assert hold(name="hand", min=Point32(-1, -1, -1), max=Point32(-0.07, 1, 1)).success
         cls.action = cls.client()
-        for _ in range(3):  # the pin acts from the second frame on
-            cls.wait_for_state(cls.send())
+        for frame in range(3):  # the pin acts from the second frame on
+            cls.frames.step(reset=frame == 0)
 
     @classmethod
     def client(cls):
         client = actionlib.SimpleActionClient("/softbody/simulator/predict_plans", PredictPlansAction)
         assert client.wait_for_server(rospy.Duration(PATIENCE_S))
         return client
-
-    @classmethod
-    def send(cls):
-        """A frame. @return its stamp."""
-        message = Targets(reset=cls.frame == 0, body_pose=Pose(orientation=Quaternion(w=1.0)))
-        message.header.stamp = rospy.Time(100) + cls.frame * rospy.Duration(nsecs=33333333)
-        message.header.frame_id = "world"
-        PredictPlans.frame += 1
-        cls.targets.publish(message)
-        return message.header.stamp
-
-    @classmethod
-    def wait_for_state(cls, stamp):
-        cls.recorder.wait(lambda seen: any(s.header.stamp == stamp for s in seen["softbody/volume/state"]),
-                          "the volume state of a frame")
 
     def begin(self, client, goal):
         """Sends a goal, and waits until it runs."""
@@ -153,8 +136,7 @@ class PredictPlans(unittest.TestCase):
         self.action.send_goal(PredictPlansGoal(times=[1.0], plans=lifts(1000)))
         sent, rate, begin = [], rospy.Rate(1.0 / PERIOD_S), time.monotonic()
         while not self.action.wait_for_result(rospy.Duration(1e-3)):
-            sent.append(self.send())
-            self.wait_for_state(sent[-1])
+            sent.append(self.frames.step().header.stamp)
             self.assertLess(time.monotonic() - begin, PATIENCE_S, "the goal does not end")
             rate.sleep()
         duration_s = time.monotonic() - begin

@@ -5,16 +5,14 @@ import numpy as np
 import rospy
 import softbody
 from geometry_msgs.msg import Point, Point32, Pose, Quaternion, Vector3
-from softbody_msgs.msg import (MeshState, MotionPlan, PlannedMotion, PlannedObstacle, PlannedPin, PlannedRelease, Targets,
+from softbody_msgs.msg import (MeshState, MotionPlan, PlannedMotion, PlannedObstacle, PlannedPin, PlannedRelease,
                                TetTopology)
 from softbody_msgs.srv import Pin, Predict
 from std_msgs.msg import Header
 
+from hand_made_frames import Frames
+from poses import array
 from recorder import Recorder
-
-
-def array(points):
-    return np.array([[p.x, p.y, p.z] for p in points])
 
 
 def raised(name, height):
@@ -86,9 +84,8 @@ class Prediction(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.recorder = Recorder(softbody__volume__topology=TetTopology, softbody__volume__state=MeshState)
-        cls.targets = rospy.Publisher("/softbody/targets", Targets, queue_size=1)
         rest = array(cls.recorder.wait_for("softbody/volume/topology")[-1].rest_vertices)
-        cls.recorder.wait(lambda _: cls.targets.get_num_connections() > 0, "a simulator that listens")
+        frames = Frames(cls.recorder, "world")
         cls.predict = rospy.ServiceProxy("/softbody/simulator/predict", Predict)
         cls.unplaced = cls.predict(times=[1.0], plans=[MotionPlan()])
         low, high = rest.min(axis=0) - 0.001, rest.max(axis=0) + 0.001
@@ -96,13 +93,7 @@ class Prediction(unittest.TestCase):
         hold = rospy.ServiceProxy("/softbody/simulator/pin", Pin)
         assert hold(name="hand", min=Point32(*low), max=Point32(low[0] + 0.02, high[1], high[2])).success
         for frame in range(3):  # the pin acts from the second frame on
-            stamp = rospy.Time(100 + frame)
-            message = Targets(reset=frame == 0, body_pose=Pose(orientation=Quaternion(w=1.0)))
-            message.header.stamp, message.header.frame_id = stamp, "world"
-            cls.targets.publish(message)
-            cls.state = cls.recorder.wait(
-                lambda seen, stamp=stamp: next((s for s in seen["softbody/volume/state"] if s.header.stamp == stamp), None),
-                "the volume state of a frame")
+            cls.state = frames.step(reset=frame == 0)
 
     def test_plans_move_the_held_end_and_leave_the_body_alone(self):
         plans = [raised("hand", 0.0), raised("hand", 0.04)]

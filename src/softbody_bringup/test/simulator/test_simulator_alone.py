@@ -4,18 +4,16 @@ import unittest
 import numpy as np
 import rospy
 from diagnostic_msgs.msg import DiagnosticArray
-from geometry_msgs.msg import Point32, Pose, Quaternion
+from geometry_msgs.msg import Point32, Pose
 from rosgraph_msgs.msg import Log
-from softbody_msgs.msg import MeshState, Target, Targets, TetTopology
+from softbody_msgs.msg import MeshState, Target, TetTopology
 
+from hand_made_frames import Frames
+from poses import array
 from recorder import Recorder
 
 FRAME = "made_by_hand"
 TURN_Z_90 = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
-
-
-def array(points):
-    return np.array([[p.x, p.y, p.z] for p in points])
 
 
 class SimulatorAlone(unittest.TestCase):
@@ -23,30 +21,12 @@ class SimulatorAlone(unittest.TestCase):
     def setUpClass(cls):
         cls.recorder = Recorder(softbody__volume__topology=TetTopology, softbody__volume__state=MeshState, rosout=Log,
                                 diagnostics=DiagnosticArray)
-        cls.publisher = rospy.Publisher("/softbody/targets", Targets, queue_size=1)
         cls.topology = cls.recorder.wait_for("softbody/volume/topology")[-1]
         cls.rest = array(cls.topology.rest_vertices)
-        cls.recorder.wait(lambda _: cls.publisher.get_num_connections() > 0, "a simulator that listens")
-        cls.stamp = rospy.Time(1000)
+        cls.frames = Frames(cls.recorder, FRAME)
 
-    def next_stamp(self):
-        type(self).stamp += rospy.Duration(nsecs=33333333)
-        return self.stamp
-
-    def send(self, targets, stamp=None, **fields):
-        """Publishes a frame's targets. @return its stamp."""
-        message = Targets(targets=targets, **{"body_pose": Pose(orientation=Quaternion(w=1.0)), **fields})
-        message.header.stamp, message.header.frame_id = self.next_stamp() if stamp is None else stamp, FRAME
-        self.publisher.publish(message)
-        return message.header.stamp
-
-    def state_of(self, stamp):
-        return self.recorder.wait(
-            lambda seen: next((s for s in seen["softbody/volume/state"] if s.header.stamp == stamp), None),
-            f"the volume state of {stamp.to_sec():.3f}")
-
-    def step(self, targets, **fields):
-        return self.state_of(self.send(targets, **fields))
+    def step(self, targets):
+        return self.frames.step(targets=targets)
 
     def centers(self, rotation, translation):
         """A target for every tet's centre, moved rigidly."""
@@ -58,7 +38,7 @@ class SimulatorAlone(unittest.TestCase):
         return targets
 
     def place(self, **fields):
-        return self.step([], reset=True, **fields)
+        return self.frames.step(reset=True, **fields)
 
     def diagnosis(self, condition, what):
         """The values of the first diagnosis of the simulation that meets a condition on them."""
@@ -75,7 +55,7 @@ class SimulatorAlone(unittest.TestCase):
         self.place()
         bad = self.centers(np.eye(3), np.zeros(3))
         bad[0].tet = len(self.topology.tets)
-        self.send(bad, stamp=self.stamp + rospy.Duration(100))
+        self.frames.send(self.frames.stamp + rospy.Duration(100), targets=bad)
         status, _ = self.diagnosis(lambda values: int(values["messages refused"]) > 0, "refused targets in a diagnosis")
         self.assertEqual(status.level, status.WARN)
         # Time that jumped back would have taken the body's place: no state would come.
@@ -87,15 +67,15 @@ class SimulatorAlone(unittest.TestCase):
         bad = self.centers(np.eye(3), np.zeros(3))
         bad[0].tet = len(self.topology.tets)
         for targets in ([], bad):
-            for odd in (rospy.Time(), rospy.Time(0, 1), self.stamp - rospy.Duration(100), self.stamp + rospy.Duration(100),
-                        rospy.Time(4294967295, 999999999)):
-                self.send(targets, stamp=odd, reset=True)
+            for odd in (rospy.Time(), rospy.Time(0, 1), self.frames.stamp - rospy.Duration(100),
+                        self.frames.stamp + rospy.Duration(100), rospy.Time(4294967295, 999999999)):
+                self.frames.send(odd, targets=targets, reset=True)
                 # Targets without reset are refused by a simulation that starts again.
                 state = self.step(self.centers(np.eye(3), np.zeros(3)))
                 np.testing.assert_allclose(array(state.vertices), array(last.vertices), atol=1e-3)
                 self.assertEqual(state.revision, last.revision)
         states = self.recorder.messages["softbody/volume/state"]
-        self.assertLess(max(state.header.stamp for state in states), self.stamp + rospy.Duration(60))
+        self.assertLess(max(state.header.stamp for state in states), self.frames.stamp + rospy.Duration(60))
 
     def test_diagnostics_tell_how_the_steps_ended(self):
         self.place()
@@ -135,7 +115,7 @@ class SimulatorAlone(unittest.TestCase):
         self.place()
         bad = self.centers(np.eye(3), np.zeros(3))
         bad[0].tet = len(self.topology.tets)
-        refused = self.send(bad)
+        refused = self.frames.send(targets=bad)
         self.recorder.wait_for_log("/softbody/simulator", "targets")
         after = self.step(self.centers(np.eye(3), np.zeros(3)))
         self.assertEqual(len(after.vertices), len(self.rest))

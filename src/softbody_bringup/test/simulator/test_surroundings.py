@@ -8,25 +8,19 @@ import tf2_ros
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from geometry_msgs.msg import Point, Point32, Pose, Quaternion, TransformStamped, Vector3, WrenchStamped
 from rosgraph_msgs.msg import Log
-from softbody_msgs.msg import MeshState, PinRegion, Target, Targets, TetTopology
+from softbody_msgs.msg import MeshState, PinRegion, Target, TetTopology
 from softbody_msgs.srv import Pin, Release, SetMaterial, SetObstacle
 
 from force_cases import ForceCases
 from gripper_cases import GripperCases
+from hand_made_frames import PERIOD, Frames
+from poses import array, vector
 from recorder import PATIENCE_S, Recorder
 
 FRAME = "world"
 DENSITY_KG_M3, GRAVITY_M_S2 = 30.0, 9.81
 FAR = [0.0, 0.0, 5.0]
 PINS = ("hold", "claw", "arm")
-
-
-def array(points):
-    return np.array([[p.x, p.y, p.z] for p in points])
-
-
-def vector(v):
-    return np.array([v.x, v.y, v.z])
 
 
 class Surroundings(ForceCases, GripperCases, unittest.TestCase):
@@ -41,7 +35,6 @@ class Surroundings(ForceCases, GripperCases, unittest.TestCase):
                                 softbody__reaction__claw=WrenchStamped, softbody__reaction__arm=WrenchStamped,
                                 rosout=Log, diagnostics=DiagnosticArray)
         cls.broadcaster = tf2_ros.TransformBroadcaster()
-        cls.targets = rospy.Publisher("/softbody/targets", Targets, queue_size=1)
         cls.pins = rospy.Publisher("/softbody/pin", PinRegion, queue_size=10)
         topology = cls.recorder.wait_for("softbody/volume/topology")[-1]
         cls.rest = array(topology.rest_vertices)
@@ -51,8 +44,8 @@ class Surroundings(ForceCases, GripperCases, unittest.TestCase):
         cls.pin, cls.release, cls.set_obstacle = (
             rospy.ServiceProxy(f"/softbody/simulator/{name}", kind)
             for name, kind in (("pin", Pin), ("release", Release), ("set_obstacle", SetObstacle)))
-        for publisher in (cls.targets, cls.pins):
-            cls.recorder.wait(lambda _: publisher.get_num_connections() > 0, "a simulator that listens")
+        cls.frames = Frames(cls.recorder)
+        cls.recorder.wait(lambda _: cls.pins.get_num_connections() > 0, "a simulator that listens")
 
     def setUp(self):
         self.places = {"finger": FAR, "gripper": FAR, "hand": FAR, "camera": [0.0, 0.0, 0.0]}
@@ -78,16 +71,12 @@ class Surroundings(ForceCases, GripperCases, unittest.TestCase):
     def step(self, reset=False, frame=FRAME, targets=()):
         """One frame of 1/30 s. @return its state, and the messages of reactions."""
         now = rospy.Time.now()
-        self.stamp = now if self.stamp is None else max(now, self.stamp + rospy.Duration(nsecs=33333333))
+        self.stamp = now if self.stamp is None else max(now, self.stamp + PERIOD)
         Surroundings.stamp = self.stamp
         self.broadcast(self.stamp)
         rospy.sleep(0.02)  # tf arrives on a way of its own
-        message = Targets(reset=reset, body_pose=Pose(orientation=Quaternion(w=1.0)), targets=targets)
-        message.header.stamp, message.header.frame_id = self.stamp, frame
-        self.targets.publish(message)
-        return self.recorder.wait(
-            lambda seen: next((s for s in seen["softbody/volume/state"] if s.header.stamp == self.stamp), None),
-            "the volume state of a frame")
+        self.frames.frame = frame
+        return self.frames.step(self.stamp, reset=reset, targets=targets)
 
     def reaction(self, name):
         """Of the last step."""

@@ -38,16 +38,15 @@ class SimulatorRestart(unittest.TestCase):
             os.kill(process_of(SIMULATOR), signal.SIGKILL)
             self.wait_for_silence()
             before = self.count("softbody/status")
-            said = self.recorder.wait(
-                lambda seen: next((status for status in seen["softbody/status"][before:]
-                                   if "no state from the simulator" in status.reason), None), "a status that tells of it")
+            said = self.recorder.first("softbody/status", lambda s: "no state from the simulator" in s.reason,
+                                       "a status that tells of it", since=before)
             self.assertEqual(said.state, TrackingStatus.DEGRADED)
             self.recorder.wait(lambda seen: len(seen["softbody/volume/topology"]) > topologies, "the new simulator")
             self.wait_for_more("softbody/volume/state", 1)
             before = self.count("softbody/status")
             self.wait_for_more("softbody/surface/state")
-            self.recorder.wait(lambda seen: any(status.state == TrackingStatus.TRACKING
-                                                for status in seen["softbody/status"][before:]), "TRACKING")
+            self.recorder.first("softbody/status", lambda status: status.state == TrackingStatus.TRACKING, "TRACKING",
+                                since=before)
 
     def wait_for_silence(self):
         states = -1

@@ -9,6 +9,7 @@ from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import PolygonStamped, PoseStamped, PoseWithCovarianceStamped
 from softbody_msgs.msg import StageTiming
 
+from poses import array, rotation, vector
 from recorder import Recorder
 
 FRAMES = 10
@@ -17,12 +18,8 @@ MAX_ERROR_M, MAX_ERROR_RAD = 0.002, 0.035  # 2 mm and 2 degrees, noise on
 
 def matrix(pose):
     """4 x 4 of a geometry_msgs/Pose."""
-    x, y, z, w = pose.orientation.x, pose.orientation.y, pose.orientation.z, pose.orientation.w
     result = numpy.eye(4)
-    result[:3, :3] = [[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-                      [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-                      [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]]
-    result[:3, 3] = [pose.position.x, pose.position.y, pose.position.z]
+    result[:3, :3], result[:3, 3] = rotation(pose.orientation), vector(pose.position)
     return result
 
 
@@ -64,17 +61,15 @@ class Tool(unittest.TestCase):
             lambda seen: same_stamps(seen["softbody/tool/pose"], seen["softbody/tool/blade"]), "a blade")
         pose, polygon = pairs[0]
         expected = (matrix(pose.pose.pose) @ numpy.c_[blade, numpy.ones(len(blade))].T).T[:, :3]
-        corners = numpy.array([[p.x, p.y, p.z] for p in polygon.polygon.points])
+        corners = array(polygon.polygon.points)
         numpy.testing.assert_allclose(corners, expected, atol=1e-6)
         transform = self.recorder.wait(
             lambda seen: [t for t in tool_transforms(seen["tf"]) if t.header.stamp == pose.header.stamp],
             "the tool's transform")[0]
-        at = transform.transform.translation
-        numpy.testing.assert_allclose([at.x, at.y, at.z], matrix(pose.pose.pose)[:3, 3], atol=1e-9)
+        numpy.testing.assert_allclose(vector(transform.transform.translation), matrix(pose.pose.pose)[:3, 3], atol=1e-9)
 
     def test_timing_and_diagnostics(self):
-        self.recorder.wait(lambda seen: any(message.node == "tool_tracker" for message in seen["softbody/timing"]),
-                           "timing of tool_tracker")
+        self.recorder.first("softbody/timing", lambda message: message.node == "tool_tracker", "timing of tool_tracker")
         self.recorder.wait(
             lambda seen: any("tool_tracker: tool" in status.name and status.message == "seen"
                              for message in seen["diagnostics"] for status in message.status),
