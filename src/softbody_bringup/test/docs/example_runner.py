@@ -10,7 +10,7 @@ import time
 import yaml
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-TIMEOUT_S = 300
+TIMEOUT_S = 600
 # Programs that only check their arguments: in every block, and in a block that is marked live.
 ALWAYS_CHECKED = ("roslaunch", "make")
 CHECKED_LIVE = ALWAYS_CHECKED + ("rosrun", "rosbag", "rosservice", "rostopic", "rosparam", "rosnode", "rqt_graph", "rviz", "roscore", "time")
