@@ -1,6 +1,7 @@
 #include "io/vtu_file.h"
 
 #include <fmt/format.h>
+#include <tinyxml2.h>
 
 #include <charconv>
 #include <cmath>
@@ -8,26 +9,38 @@
 
 #include "softbody_common/files/stack_rows.h"
 #include "softbody_common/files/text_reader.h"
-#include "xml/xml_elements.h"
 
 namespace softbody {
 namespace {
 
+using tinyxml2::XMLElement;
+
 constexpr int kVtkQuadraticTetra = 24;
+
+/// Empty if there is no such attribute.
+std::string_view attributeOf(const XMLElement& element, const char* name) {
+  const char* value = element.Attribute(name);
+  return value == nullptr ? std::string_view() : value;
+}
 
 class VtuReader {
  public:
-  VtuReader(const std::string& path, std::string_view text, Warnings* warnings)
-      : path_(path), warnings_(warnings), elements_(xmlElements(requireText(text), path)) {}
+  VtuReader(const std::string& path, Warnings* warnings) : path_(path), warnings_(warnings) {}
 
-  TetMesh read() {
-    const XmlElement& root = elements_.front();
-    const XmlElement* grid = root.name == "VTKFile" ? child(root, "UnstructuredGrid") : nullptr;
-    if (grid == nullptr) fail("no <UnstructuredGrid>; only unstructured grids are supported");
-    if (child(*grid, "Piece") == nullptr) fail("no <Piece>");
-    for (const int index : grid->children) {
-      if (element(index).name == "Piece") readPiece(element(index));
+  TetMesh read(std::string_view text) {
+    // Appended data may be bytes that are not XML.
+    if (text.find("<AppendedData") != std::string_view::npos) failBinary("appended");
+    tinyxml2::XMLDocument file;
+    if (file.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
+      throw std::invalid_argument(fmt::format("{}:{}: not XML ({}): save the file again", path_,
+                                              file.ErrorLineNum(), file.ErrorName()));
     }
+    const XMLElement* root = file.FirstChildElement("VTKFile");
+    const XMLElement* grid = root == nullptr ? nullptr : root->FirstChildElement("UnstructuredGrid");
+    if (grid == nullptr) fail("no <UnstructuredGrid>; only unstructured grids are supported");
+    const XMLElement* piece = grid->FirstChildElement("Piece");
+    if (piece == nullptr) fail("no <Piece>");
+    for (; piece != nullptr; piece = piece->NextSiblingElement("Piece")) readPiece(*piece);
     if (skipped_ > 0) {
       warnings_->push_back(fmt::format("{}: {} cells other than tets (the first of VTK type {}) were skipped",
                                        path_, skipped_, first_skipped_type_));
@@ -41,12 +54,6 @@ class VtuReader {
  private:
   [[noreturn]] void fail(const std::string& what) const { throw std::invalid_argument(path_ + ": " + what); }
 
-  /// Appended data may be bytes that are not XML. @return the text.
-  std::string_view requireText(std::string_view text) const {
-    if (text.find("<AppendedData") != std::string_view::npos) failBinary("appended");
-    return text;
-  }
-
   [[noreturn]] void failBinary(std::string_view format) const {
     fail(fmt::format(
         "format is '{}'; only ascii is supported; convert it: meshio convert --ascii {} ascii.vtu, or "
@@ -54,19 +61,9 @@ class VtuReader {
         format, path_));
   }
 
-  const XmlElement& element(int index) const { return elements_[static_cast<std::size_t>(index)]; }
-
-  /// The first child of that name, or null.
-  const XmlElement* child(const XmlElement& parent, std::string_view name) const {
-    for (const int index : parent.children) {
-      if (element(index).name == name) return &element(index);
-    }
-    return nullptr;
-  }
-
   /// The whole number of an attribute, at least 0.
-  std::size_t count(const XmlElement& piece, std::string_view name) const {
-    const std::string_view text = piece.attribute(name);
+  std::size_t count(const XMLElement& piece, const char* name) const {
+    const std::string_view text = attributeOf(piece, name);
     std::size_t value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size())
@@ -74,7 +71,7 @@ class VtuReader {
     return value;
   }
 
-  void readPiece(const XmlElement& piece) {
+  void readPiece(const XMLElement& piece) {
     const std::vector<double> points = numbers(piece, "Points", "");
     const std::size_t announced_points = count(piece, "NumberOfPoints");
     const std::size_t announced_cells = count(piece, "NumberOfCells");
@@ -88,7 +85,7 @@ class VtuReader {
     readCells(piece, announced_cells, first);
   }
 
-  void readCells(const XmlElement& piece, std::size_t announced, int first_vertex) {
+  void readCells(const XMLElement& piece, std::size_t announced, int first_vertex) {
     const std::vector<double> connectivity = numbers(piece, "Cells", "connectivity");
     const std::vector<double> offsets = numbers(piece, "Cells", "offsets");
     const std::vector<double> types = numbers(piece, "Cells", "types");
@@ -129,19 +126,17 @@ class VtuReader {
   }
 
   /// The numbers of the DataArray of that name (empty: the only one) in a section.
-  std::vector<double> numbers(const XmlElement& piece, const std::string& section,
-                              const std::string& name) const {
-    const XmlElement* arrays = child(piece, section);
+  std::vector<double> numbers(const XMLElement& piece, const char* section, const std::string& name) const {
+    const XMLElement* arrays = piece.FirstChildElement(section);
     if (arrays == nullptr) fail(fmt::format("no <{}>", section));
-    for (const int index : arrays->children) {
-      const XmlElement& array = element(index);
-      if (array.name != "DataArray" || (!name.empty() && array.attribute("Name") != name)) continue;
-      const std::string label = fmt::format("<{}> {}", section, name);
-      const std::string_view format = array.attribute("format");
-      if (!format.empty() && format != "ascii") failBinary(format);
-      return parseNumbers(array.text, label);
-    }
-    fail(fmt::format("no DataArray {} in <{}>", name, section));
+    const XMLElement* array = arrays->FirstChildElement("DataArray");
+    while (array != nullptr && !name.empty() && attributeOf(*array, "Name") != name)
+      array = array->NextSiblingElement("DataArray");
+    if (array == nullptr) fail(fmt::format("no DataArray {} in <{}>", name, section));
+    const std::string_view format = attributeOf(*array, "format");
+    if (!format.empty() && format != "ascii") failBinary(format);
+    const char* text = array->GetText();
+    return parseNumbers(text == nullptr ? "" : text, fmt::format("<{}> {}", section, name));
   }
 
   std::vector<double> parseNumbers(std::string_view text, const std::string& label) const {
@@ -162,7 +157,6 @@ class VtuReader {
 
   std::string path_;
   Warnings* warnings_;
-  std::vector<XmlElement> elements_;
   std::vector<Eigen::RowVector3d> vertices_;
   std::vector<Eigen::RowVector4i> tets_;
   std::size_t skipped_ = 0, quadratic_ = 0;
@@ -172,7 +166,7 @@ class VtuReader {
 }  // namespace
 
 TetMesh parseVtu(const std::string& path, std::string_view text, Warnings* warnings) {
-  return VtuReader(path, text, warnings).read();
+  return VtuReader(path, warnings).read(text);
 }
 
 }  // namespace softbody
