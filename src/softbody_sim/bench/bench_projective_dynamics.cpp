@@ -11,7 +11,6 @@
 
 #include "bench/bent_bodies.h"
 #include "bench/plain_projective_dynamics.h"
-#include "elasticity/elastic_blocks.h"
 #include "linear_solvers/global_step_solver.h"
 #include "softbody_sim/dynamics/simulator.h"
 #include "tets/tet_matrix.h"
@@ -20,11 +19,10 @@
 
 /// Compares projective dynamics with a plain implementation, on bent bodies with one thread. `frame`: ten
 /// iterations, with and without the volume term. `converged`: iterations until every vertex is within 1e-6
-/// mean edge lengths of the minimum. Of the fast solver in single precision: `local` and `global` (one such
-/// step), `factor` (a new matrix), `update` (a matrix with a few other targets). The prefix `smoothed/` means
-/// the simulator's default strain smoothing, compared with a plain solver of the same energy. `global`,
-/// `factor` and `update` do not depend on it. `volume_smoothing`: the time with all of the volume energy
-/// smoothed, relative to that of a sponge.
+/// mean edge lengths of the minimum. `update`: a matrix with a few other targets, against a new one. The
+/// prefix `smoothed/` means the simulator's default strain smoothing, compared with a plain solver of the
+/// same energy. `volume_smoothing`: the time with all of the volume energy smoothed, relative to that of a
+/// sponge.
 namespace {
 
 using namespace softbody;
@@ -235,31 +233,6 @@ void volumeSmoothingCost(State& state, const std::string& name) {
   }
 }
 
-void localStep(State& state, const BentBody& body, Strains strains) {
-  const CorotatedElasticity elasticity(body.topology.rest_vertices, body.topology.tets, body.lame,
-                                       smoothingOf(strains));
-  ElasticBlocks<float> blocks(body.topology.rest_vertices, elasticity, Simd::kAuto);
-  Rows<float> x = Rows<float>::Zero(paddedRows(body.start.rows()), 4), gradient = x;
-  x.topLeftCorner(body.start.rows(), 3) = body.start.cast<float>();
-  for (auto _ : state) benchmark::DoNotOptimize(blocks.addTo(x, &gradient));
-}
-
-void globalStep(State& state, const BentBody& body, Simd simd) {
-  const TetMatrix metric = bench::metricOf(body);
-  GlobalStepSolver<float> solver(metric.lower(), simd);
-  solver.factorize(metric.lower());
-  const Rows<float> b = Rows<float>::Ones(paddedRows(body.start.rows()), 4);
-  Rows<float> x = b;
-  for (int k = 0; k < 300; ++k) solver.solve(b, &x);
-  for (auto _ : state) solver.solve(b, &x);
-}
-
-void factorize(State& state, const BentBody& body) {
-  const TetMatrix metric = bench::metricOf(body);
-  GlobalStepSolver<float> solver(metric.lower(), Simd::kAuto);
-  for (auto _ : state) solver.factorize(metric.lower());
-}
-
 /// Times updates of the factor for a number of changed targets. Also reports the largest number for which an
 /// update is faster than a new factorisation.
 void updates(State& state, const std::string& name) {
@@ -306,11 +279,6 @@ void addBody(const std::string& name) {
   add(fmt::format("smoothed/frame/{}/volume", name), [=](State& s) {
     frames(s, name, true, Strains::kSmoothed);
   })->Iterations(1);
-  const auto body = [name]() -> const BentBody& { return bodyOf(name, true); };
-  for (const Strains strains : {Strains::kOfTets, Strains::kSmoothed})
-    add(prefixOf(strains, "/") + "local/" + name, [=](State& s) { localStep(s, body(), strains); });
-  add("global/" + name, [body](State& s) { globalStep(s, body(), Simd::kAuto); });
-  add("factor/" + name, [body](State& s) { factorize(s, body()); });
   add("update/" + name, [name](State& s) { updates(s, name); })->Iterations(1);
   add("volume_smoothing/" + name, [name](State& s) { volumeSmoothingCost(s, name); })->Iterations(1);
 }
