@@ -17,6 +17,8 @@
 namespace softbody::scanning {
 namespace {
 
+constexpr char kFrame[] = "scan";  // of the growing surface, child of the camera's on /tf
+
 constexpr double kPreviewPeriod_s = 2.0;
 constexpr std::size_t kFewestFrames = 6;  // for a preview
 
@@ -41,9 +43,8 @@ ScannerNode::ScannerNode(ros::NodeHandle handle, ros::NodeHandle private_handle,
                          const ScannerOptions& options)
     : sheet_(loadSheet(options)),
       output_(options.output),
-      frame_id_(options.scan_frame),
       motion_(sheet_),
-      clicked_(handle, frame_id_),
+      clicked_(handle, kFrame),
       color_(handle, topics::kRgbRect, 3),
       depth_(handle, topics::kDepthRect, 3),
       info_(handle, topics::kRgbInfo, 3),
@@ -83,7 +84,7 @@ void ScannerNode::onFrame(const sensor_msgs::ImageConstPtr& color, const sensor_
 void ScannerNode::place(const std_msgs::Header& header, const Eigen::Isometry3d& T_camera_model) {
   geometry_msgs::TransformStamped transform = tf2::eigenToTransform(T_camera_model);
   transform.header = header;
-  transform.child_frame_id = frame_id_;
+  transform.child_frame_id = kFrame;
   transforms_.sendTransform(transform);
 }
 
@@ -134,7 +135,7 @@ void ScannerNode::publish(const RegisteredSurface& surface) {
           static_cast<double>(surface.seen.size());
   softbody_msgs::MeshTopology topology_message = toMessage(topology);
   softbody_msgs::MeshState state_message = toMessage(state);
-  topology_message.header.frame_id = state_message.header.frame_id = frame_id_;
+  topology_message.header.frame_id = state_message.header.frame_id = kFrame;
   topology_message.header.stamp = state_message.header.stamp = state_message.observed = ros::Time::now();
   topology_.publish(topology_message);
   state_.publish(state_message);

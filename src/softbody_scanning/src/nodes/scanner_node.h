@@ -50,7 +50,7 @@ class ScannerNode {
   std::string progressText() const;
 
   ToolDescription sheet_;
-  std::string output_, frame_id_;
+  std::string output_;
   SheetMotion motion_;
   KeyFrameChoice choice_;
   bool running_ = true;

@@ -11,8 +11,6 @@ ParameterTable<ScannerOptions> makeScannerTable() {
   table.flag("allow_outside", &Options::allow_outside,
              "the YAML may name [a file in another folder](reference.md#files-in-other-folders)");
   table.requiredText("output", &Options::output, "folder of the object that is written");
-  table.text("scan_frame", &Options::scan_frame,
-             "frame of the growing surface, child of the camera's on /tf");
   return table;
 }
 

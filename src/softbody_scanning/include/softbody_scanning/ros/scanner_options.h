@@ -11,7 +11,6 @@ struct ScannerOptions {
   std::string sheet;           ///< path of the YAML of the sheet of markers
   bool allow_outside = false;  ///< a file that it names may be outside of its folder
   std::string output;          ///< folder of the model
-  std::string scan_frame = "scan";
 };
 
 const ParameterTable<ScannerOptions>& scannerParameters();
