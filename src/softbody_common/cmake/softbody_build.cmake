@@ -152,7 +152,7 @@ function(softbody_development_program name)
   set_target_properties(${name} PROPERTIES
     RUNTIME_OUTPUT_DIRECTORY ${CATKIN_DEVEL_PREFIX}/lib/development/${PROJECT_NAME})
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/test
-    ${PROJECT_SOURCE_DIR}/src/core)
+    ${PROJECT_SOURCE_DIR}/src/core ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/..)
 endfunction()
 
 # Writes the core libraries' targets for packages that find this one, in the devel and the install space.
@@ -183,7 +183,7 @@ function(softbody_test_headers target)
 endfunction()
 
 # softbody_gtest(NAME PLACE...): one test program from source files, and from all sources of folders, linked to
-# ${test_libraries}.
+# ${test_libraries}. It finds <test_support/...>, which the tests of all packages share.
 function(softbody_gtest name)
   set(sources "")
   foreach(place IN LISTS ARGN)
@@ -194,7 +194,7 @@ function(softbody_gtest name)
   endforeach()
   catkin_add_gtest(${name} ${sources})
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/test ${PROJECT_SOURCE_DIR}/src
-    ${PROJECT_SOURCE_DIR}/src/core)
+    ${PROJECT_SOURCE_DIR}/src/core ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/..)
   target_compile_definitions(${name} PRIVATE ${test_definitions})
   target_link_libraries(${name} ${test_libraries} gtest_main)
   softbody_test_headers(${name})

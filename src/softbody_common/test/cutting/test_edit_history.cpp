@@ -1,6 +1,6 @@
 #include "softbody_common/cutting/edit_history.h"
 
-#include <gtest/gtest.h>
+#include <test_support/gtest.h>
 
 #include <cstdint>
 #include <limits>
@@ -47,7 +47,7 @@ TEST(EditHistory, RefusesWhatIsNotPossible) {
   EXPECT_EQ(refusalOf(edit(history, CutKind::kReset), history), "the body is not cut");
   Cut late = cutAt(history, 1, 0.0);
   late.revision = 7;
-  EXPECT_NE(refusalOf(late, history).find("its revision is 7"), std::string::npos);
+  EXPECT_TRUE(says(refusalOf(late, history), "its revision is 7"));
 }
 
 TEST(EditHistory, BoundsTheStroke) {
@@ -57,7 +57,7 @@ TEST(EditHistory, BoundsTheStroke) {
   EXPECT_EQ(refusalOf(half, history), "");
   addEdit(half, &history);
   ++half.revision;
-  EXPECT_NE(refusalOf(half, history).find("begin another stroke"), std::string::npos);
+  EXPECT_TRUE(says(refusalOf(half, history), "begin another stroke"));
   half.stroke = 2;
   EXPECT_EQ(refusalOf(half, history), "");
 }

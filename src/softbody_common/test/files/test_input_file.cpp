@@ -1,13 +1,13 @@
 #include "softbody_common/files/input_file.h"
 
-#include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <test_support/gtest.h>
 #include <yaml-cpp/yaml.h>
 
 #include <functional>
 #include <stdexcept>
 
-#include "scratch_folder.h"
+#include <test_support/scratch_folder.h>
 #include "softbody_common/files/staged_output.h"
 #include "softbody_common/files/yaml_map_reader.h"
 
@@ -17,23 +17,12 @@ namespace {
 namespace fs = std::filesystem;
 using test::ScratchFolder;
 
-std::string complaint(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "";
-}
-
 TEST(ReadFile, RefusesWhatIsNoRegularFileAtOnce) {
   const ScratchFolder folder;
   mkfifo((folder / "pipe").c_str(), 0600);
   for (const fs::path& path :
        {folder / "pipe", fs::path(folder), fs::path("/dev/zero"), folder / "nothing"}) {
-    EXPECT_NE(complaint([&] { readFile(path); }).find(path.string() + ": cannot be read: "),
-              std::string::npos)
-        << path;
+    EXPECT_TRUE(says(complaint([&] { readFile(path); }), path.string() + ": cannot be read: ")) << path;
   }
 }
 
@@ -45,9 +34,8 @@ TEST(ReadTextFile, HasNoMarkAndOneKindOfLineEnds) {
   EXPECT_EQ(readTextFile(folder / "a"), "a\nb\nc\n\nd\n");
   for (const char* mark : {"\xff\xfe", "\xfe\xff"}) {
     replaceFile(folder / "wide", mark + std::string("\0v\0", 4));
-    EXPECT_NE(
-        complaint([&] { readTextFile(folder / "wide"); }).find("wide: is UTF-16 text; save it as UTF-8"),
-        std::string::npos);
+    EXPECT_TRUE(
+        says(complaint([&] { readTextFile(folder / "wide"); }), "wide: is UTF-16 text; save it as UTF-8"));
   }
 }
 
@@ -93,8 +81,8 @@ TEST(YamlMapReader, AFileOutsideOfItsFolderNeedsAllowance) {
   EXPECT_EQ(reader.file("own"), (folder / "data/own.obj").string());
   for (const auto& [key, line] : {std::pair("up", 2), std::pair("absolute", 3)}) {
     const std::string said = complaint([&, key = key] { reader.file(key); });
-    EXPECT_NE(said.find(yaml + ":" + std::to_string(line) + ": " + key), std::string::npos) << said;
-    EXPECT_NE(said.find("--allow-outside"), std::string::npos) << said;
+    EXPECT_TRUE(says(said, yaml + ":" + std::to_string(line) + ": " + key));
+    EXPECT_TRUE(says(said, "--allow-outside"));
     EXPECT_NE(reader.file(key, FileScope::kAnywhere), "");
   }
 }
@@ -104,14 +92,14 @@ TEST(ParseYamlFile, RefusesWhatWouldExhaustStackOrMemory) {
   const std::string yaml = (folder / "deep.yaml").string();
   for (const std::string& text : {std::string(100000, '['), "a: " + std::string(100000, '{')}) {
     replaceFile(yaml, text);
-    EXPECT_NE(complaint([&] { parseYamlFile(yaml); }).find("deep.yaml:1: not YAML"), std::string::npos);
+    EXPECT_TRUE(says(complaint([&] { parseYamlFile(yaml); }), "deep.yaml:1: not YAML"));
   }
   std::string blocks;
   for (int depth = 0; depth < 1000; ++depth) blocks += "- ";
   replaceFile(yaml, blocks);
-  EXPECT_NE(complaint([&] { parseYamlFile(yaml); }).find("deep.yaml:1: not YAML"), std::string::npos);
+  EXPECT_TRUE(says(complaint([&] { parseYamlFile(yaml); }), "deep.yaml:1: not YAML"));
   replaceFile(yaml, std::string(2 << 20, '#'));
-  EXPECT_NE(complaint([&] { parseYamlFile(yaml); }).find("a YAML file may have up to"), std::string::npos);
+  EXPECT_TRUE(says(complaint([&] { parseYamlFile(yaml); }), "a YAML file may have up to"));
 }
 
 }  // namespace

@@ -1,8 +1,8 @@
 #include "softbody_common/files/obj_materials.h"
 
-#include <gtest/gtest.h>
+#include <test_support/gtest.h>
 
-#include "scratch_folder.h"
+#include <test_support/scratch_folder.h>
 #include "softbody_common/files/staged_output.h"
 
 namespace softbody {
@@ -63,28 +63,26 @@ TEST_F(ObjMaterials, WithOptionsAreFoundAndSaySo) {
       "mtllib my toy.mtl\n", "newmtl a\nmap_Kd -s 2 2.5 -1e0 -clamp on -imfchan r my skin.png\nnewmtl b\n");
   EXPECT_EQ(found.index, (std::vector<int>{0, -1}));
   ASSERT_EQ(warnings_.size(), 1U);
-  EXPECT_NE(warnings_[0].find("my toy.mtl:2: options of map_Kd"), std::string::npos) << warnings_[0];
+  EXPECT_TRUE(says(warnings_[0], "my toy.mtl:2: options of map_Kd"));
 }
 
 TEST_F(ObjMaterials, StopAtTheFolder) {
   EXPECT_TRUE(find("mtllib my toy.mtl\n", "newmtl a\nmap_Kd ../secret.png\nnewmtl b\n").files.empty());
   ASSERT_EQ(warnings_.size(), 1U);
-  EXPECT_NE(warnings_[0].find("outside of the folder"), std::string::npos) << warnings_[0];
+  EXPECT_TRUE(says(warnings_[0], "outside of the folder"));
 }
 
 TEST_F(ObjMaterials, ThatAreMissingGiveOneWarning) {
   const std::string twice = "newmtl a\nmap_Kd gone.png\nnewmtl b\nmap_Kd gone.png\n";
   EXPECT_TRUE(find("mtllib my toy.mtl\n", twice).files.empty());
   ASSERT_EQ(warnings_.size(), 1U);
-  EXPECT_NE(warnings_[0].find("my toy.mtl:2: map_Kd names 'gone.png', but there is no file"),
-            std::string::npos)
-      << warnings_[0];
+  EXPECT_TRUE(says(warnings_[0], "my toy.mtl:2: map_Kd names 'gone.png', but there is no file"));
   find("\nmtllib gone.mtl\n", "");
   ASSERT_EQ(warnings_.size(), 1U);
-  EXPECT_NE(warnings_[0].find("toy.obj:2: mtllib names 'gone.mtl'"), std::string::npos) << warnings_[0];
+  EXPECT_TRUE(says(warnings_[0], "toy.obj:2: mtllib names 'gone.mtl'"));
   find("mtllib my toy.mtl\n", "newmtl a\nmap_Kd my skin.png\n");
   ASSERT_EQ(warnings_.size(), 1U);
-  EXPECT_NE(warnings_[0].find("the material 'b' is in no mtllib file"), std::string::npos) << warnings_[0];
+  EXPECT_TRUE(says(warnings_[0], "the material 'b' is in no mtllib file"));
 }
 
 TEST_F(ObjMaterials, OfAnObjWithoutMaterialNamesAreForAllFaces) {

@@ -1,8 +1,8 @@
-#include <gtest/gtest.h>
+#include <test_support/gtest.h>
 
 #include <fstream>
 
-#include "scratch_folder.h"
+#include <test_support/scratch_folder.h>
 #include "softbody_common/files/object_path.h"
 
 namespace softbody {
@@ -38,16 +38,16 @@ TEST_F(ObjectPath, AMeshIsRefusedWithWhatToGiveInstead) {
   for (const char* name : {"toy.obj", "TOY.STL", "toy.ply", "tets.vtu"}) {
     const std::string mesh = write(name), said = complaint(mesh);
     EXPECT_EQ(said.rfind(mesh, 0), 0U) << said;
-    EXPECT_NE(said.find("prepare_model " + mesh), std::string::npos) << said;
+    EXPECT_TRUE(says(said, "prepare_model " + mesh));
   }
   const std::string yaml = write("prepared/object.yaml");
   const std::string said = complaint(write("prepared/visual.obj"));
-  EXPECT_NE(said.find("give " + yaml), std::string::npos) << said;
+  EXPECT_TRUE(says(said, "give " + yaml));
 }
 
 TEST_F(ObjectPath, AFolderWithoutAnObjectIsRefused) {
   const std::string folder = (folder_ / "").string();
-  EXPECT_NE(complaint(folder).find("prepare_model"), std::string::npos) << complaint(folder);
+  EXPECT_TRUE(says(complaint(folder), "prepare_model"));
 }
 
 TEST_F(ObjectPath, AFileThatIsMissingIsLeftToItsReader) {

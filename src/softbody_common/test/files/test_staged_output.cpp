@@ -1,13 +1,13 @@
 #include "softbody_common/files/staged_output.h"
 
-#include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <test_support/gtest.h>
 
 #include <csignal>
 #include <fstream>
 
-#include "scratch_folder.h"
+#include <test_support/scratch_folder.h>
 #include "softbody_common/files/input_file.h"
 
 namespace softbody {
@@ -76,13 +76,8 @@ TEST(StagedFile, AFullDiskLeavesTheEarlierFileAndNothingElse) {
   const ScratchFolder folder;
   replaceFile(folder / "a", "earlier");
   const FullDisk disk(10);
-  try {
-    replaceFile(folder / "a", std::string(100, 'x'));
-    FAIL();
-  } catch (const std::runtime_error& error) {
-    EXPECT_NE(std::string(error.what()).find("cannot be written: File too large"), std::string::npos)
-        << error.what();
-  }
+  EXPECT_TRUE(says(complaint<std::runtime_error>([&] { replaceFile(folder / "a", std::string(100, 'x')); }),
+                   "cannot be written: File too large"));
   EXPECT_EQ(readFile(folder / "a"), "earlier");
   EXPECT_EQ(filesIn(folder), std::set<std::string>{"a"});
 }

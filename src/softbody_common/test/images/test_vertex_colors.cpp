@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "scratch_folder.h"
+#include <test_support/scratch_folder.h>
 #include "softbody_common/images/vertex_colors.h"
 
 namespace softbody {
