@@ -8,8 +8,8 @@
 namespace softbody {
 namespace {
 
-constexpr double kMetresPerNewton = 0.1;
-constexpr double kUsualModulus = 2e4;  // [Pa]
+constexpr double kMetresPerNewton = 0.1;  // a hand's few newtons are as long as the body
+constexpr double kUsualModulus = 2e4;     // [Pa]
 
 template <typename Matrix, typename Array>
 void copyRowByRow(const Matrix& matrix, Array* array) {

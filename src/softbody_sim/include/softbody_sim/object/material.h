@@ -30,8 +30,8 @@ struct MaterialRange {
   double min, max;
 };
 constexpr MaterialRange kYoungsModulusRange{1.0, 1e12};  // [Pa]
-constexpr MaterialRange kPoissonRatioRange{0.0, 0.495};
-constexpr MaterialRange kDensityRange{0.1, 30000.0};  // [kg/m^3]
+constexpr MaterialRange kPoissonRatioRange{0.0, 0.495};  // 0.5 is incompressible
+constexpr MaterialRange kDensityRange{0.1, 30000.0};     // [kg/m^3]
 constexpr MaterialRange kDampingRange{0.0, 1.0};
 
 constexpr MaterialRange kYoungsModulusStdRange{1e-3, 1e12};  // [Pa]

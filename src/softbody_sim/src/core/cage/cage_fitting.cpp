@@ -14,7 +14,7 @@
 namespace softbody {
 namespace {
 
-constexpr int kSweeps = 6;
+constexpr int kSweeps = 6;                 ///< a bound: kMinGain ends it
 constexpr int kMostUndos = 8;              ///< rounds of a sweep; one or two are usual
 constexpr double kMinGain = 4e-3;          ///< relative decrease of the volume below which fitting stops
 constexpr double kPlaneMargin = 1e-5;      ///< distance of the points from the planes, over the size
@@ -148,7 +148,7 @@ class CageFitter {
 }  // namespace
 
 std::vector<Eigen::Index> pointsBeyond(const Points& points, const TriangleMesh& mesh) {
-  constexpr Eigen::Index kAtOnce = 1024;
+  constexpr Eigen::Index kAtOnce = 1024;  // points: all weights of a large mesh do not fit
   const MeanValueCage cage(mesh.vertices, mesh.triangles);
   std::vector<Eigen::Index> beyond;
   WeightRows weights;

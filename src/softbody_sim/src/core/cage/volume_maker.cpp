@@ -21,9 +21,9 @@
 namespace softbody {
 namespace {
 
-constexpr int kFewestVertices = 100;  ///< a box of eight corners could not bend
-constexpr int kFewestByShape = 180, kMostByShape = 400;
-constexpr int kFittingRounds = 3;
+constexpr int kFewestVertices = 100;                     ///< a box of eight corners could not bend
+constexpr int kFewestByShape = 180, kMostByShape = 400;  ///< bends; a step takes a few ms
+constexpr int kFittingRounds = 3;                        ///< a bound; the last one takes all that is outside
 constexpr double kEdgePerThickness = 0.8;  ///< as the sponge of Kang et al. 2022: 20 mm edges, 25 mm thick
 
 struct Wrapping {

@@ -82,7 +82,7 @@ MaterialPoint materialPoint(const LatticePlace& place, int n, int tet, const Tet
 /// First point on the path from a to b, in the obstacle's frame, that touches it (sphere tracing). Gives b if
 /// the path does not touch it, and a if the path starts inside.
 Eigen::Vector3d firstMeeting(const Obstacle& obstacle, const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  constexpr int kMaxSteps = 100;
+  constexpr int kMaxSteps = 100;      // along a surface, each is short
   constexpr double kTouching = 1e-7;  // [m]
   const double length = (b - a).norm();
   if (length == 0.0) return b;

@@ -74,7 +74,7 @@ void ContactForces::addSprings(const std::vector<Contact>& contacts, TargetEnerg
 }
 
 bool ContactForces::updateFriction(const Points& x, double unnoticed_n, std::vector<Contact>* contacts) {
-  constexpr double kNoticeable = 0.01;
+  constexpr double kNoticeable = 0.01;  // of the contact force: friction is not known better
   if (contacts->empty()) return false;
   double total = 0.0;
   friction_change_.setZero(x.rows(), 3);

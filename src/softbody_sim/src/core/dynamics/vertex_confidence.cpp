@@ -14,7 +14,7 @@ VertexConfidence::VertexConfidence(const Points& rest_vertices, const Tets& tets
 }
 
 void VertexConfidence::compute(const std::vector<Target>& targets, std::vector<float>* confidence) {
-  constexpr double kObserved = 0.25;
+  constexpr double kObserved = 0.25;  // one corner of a target of weight 1 in the middle of its tet
   std::fill(support_.begin(), support_.end(), 0.0);
   for (const Target& target : targets) {
     if (target.kind == TargetKind::kPrior) continue;

@@ -137,7 +137,7 @@ template <std::size_t kVectors, class D, class V = hn::Vec<D>, typename T = hn::
 HWY_INLINE void findTraces(D d, Deformation<V>* all) {
   const V three = hn::Set(d, T{3}), four = hn::Set(d, T{4});
   for (std::size_t k = 0; k < kVectors; ++k) all[k].trace = roughSqrt(d, hn::Mul(three, all[k].squared_norm));
-  constexpr int kMaxIterations = 8;
+  constexpr int kMaxIterations = 8;  // a bound; what has not converged is solved one by one
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
     for (std::size_t k = 0; k < kVectors; ++k) {
       Deformation<V>& a = all[k];

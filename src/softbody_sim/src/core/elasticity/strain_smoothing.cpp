@@ -34,7 +34,7 @@ Eigen::MatrixXi numberPatches(Eigen::Index vertex_count, const Tets& tets, const
 }  // namespace
 
 double volumeSmoothing(double poisson_ratio) {
-  constexpr double kUnsmoothed = 0.3, kHarmless = 0.2;
+  constexpr double kUnsmoothed = 0.3, kHarmless = 0.2;  // as of shear; Poisson's ratio that does not lock
   const auto ratio = [](double nu) { return 2.0 * nu / (1.0 - 2.0 * nu); };  // lambda / mu
   const double softer = (1.0 - 2.0 * poisson_ratio) / (1.0 - 2.0 * kHarmless);
   return 1.0 - kUnsmoothed * std::min(1.0, softer * ratio(kHarmless) / ratio(poisson_ratio));

@@ -56,7 +56,7 @@ void vertexDeviations(const std::vector<Target>& targets, const Tets& tets, cons
 }
 
 void fadeUnobserved(double elapsed_s, MeshState* state) {
-  constexpr double kHalfLife_s = 0.5;
+  constexpr double kHalfLife_s = 0.5;  // hands deform a body within about a second
   const auto fade = static_cast<float>(std::pow(0.5, elapsed_s / kHalfLife_s));
   for (float& confidence : state->confidence) confidence *= fade;
   // The variance goes to that of a vertex of which nothing is known.

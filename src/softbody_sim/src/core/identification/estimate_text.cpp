@@ -35,7 +35,7 @@ std::string lineOf(const EstimatedProperty& property) {
 }
 
 std::string observationsText(const MaterialEstimate& estimate) {
-  constexpr std::size_t kMost = 12;
+  constexpr std::size_t kMost = 12;  // lines of a report that is read
   std::string text;
   const std::size_t step = 1 + (estimate.observations.size() - 1) / kMost;
   const Nanoseconds first = estimate.observations.front().stamp;

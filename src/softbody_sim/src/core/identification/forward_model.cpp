@@ -106,7 +106,7 @@ void ForwardModel::advance(std::size_t k) {
 
 /// Contacts are found at a shape, and change it: it settles until nothing moves.
 void ForwardModel::settle(const Surroundings& surroundings) {
-  constexpr int kMost = 30;
+  constexpr int kMost = 30;  // a bound: it ends when nothing moves
   for (int attempt = 0; attempt < kMost; ++attempt) {
     const Points before = simulator_.state().vertices;
     simulator_.settle({}, surroundings);

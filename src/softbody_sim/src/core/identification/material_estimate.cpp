@@ -25,7 +25,7 @@ constexpr double kLeftAfterRefinement = 1.0 / 3.0;
 
 /// The values with which the refined mesh gives the places that this mesh gives with the found ones.
 Eigen::VectorXd refinedValues(const MaterialProblem& problem, const MaterialFit& fit) {
-  constexpr int kRounds = 4;
+  constexpr int kRounds = 4;  // a bound: a small shift ends it
   const MaterialProblem fine = refine(problem);
   ForwardModel finer(fine);
   Eigen::VectorXd values = fit.state().values;

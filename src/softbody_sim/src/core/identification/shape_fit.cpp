@@ -50,7 +50,7 @@ void requireNear(const Points& measured, const Points& rest) {
 /// Where the points belong, once the material is found. @param problem its targets are set.
 void associate(const SurfacePoints& surface, const Points& measured, MaterialProblem problem,
                const std::function<void(double)>& progress, std::vector<Target>* targets) {
-  constexpr int kAlignments = 8, kRounds = 40;
+  constexpr int kAlignments = 8, kRounds = 40;  // small motions first; a bound: a small change ends it
   if (std::isfinite(problem.mass_std)) problem.mass_std = 0.0;  // its deviation counts at the end
   const std::vector<Unknown> unknowns = unknownsOf(problem);
   Points shape = ForwardModel(problem).predict(problem.prior).shapes.front();

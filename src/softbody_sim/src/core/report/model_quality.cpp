@@ -54,7 +54,7 @@ void measureMargins(const Points& points, const TriangleMesh& cage, ModelQuality
 }
 
 void measureCoordinates(const Points& points, const TriangleMesh& cage, ModelQuality* quality) {
-  constexpr Eigen::Index kAtOnce = 1024;
+  constexpr Eigen::Index kAtOnce = 1024;  // points: all weights of a large mesh do not fit
   const MeanValueCage mean_value(cage.vertices, cage.triangles);
   WeightRows weights;
   for (Eigen::Index first = 0; first < points.rows(); first += kAtOnce) {

@@ -117,8 +117,8 @@ bool FemSolver::solveShifted(const Eigen::SparseMatrix<double>& system, double s
 /// energy, the slope tells instead (approximate Wolfe condition, Hager and Zhang 2005, eq. 4.1). If neither
 /// holds for any step, returns false and leaves x.
 bool FemSolver::searchLine(const IncrementalPotential& potential, Points* x, double* step) {
-  constexpr double kArmijo = 1e-4;
-  constexpr int kMaxHalvings = 20;
+  constexpr double kArmijo = 1e-4;  // Nocedal and Wright 2006, section 3.1
+  constexpr int kMaxHalvings = 20;  // then a step is a millionth: rounding
   const double slope = gradient_.cwiseProduct(direction_).sum();
   const double rounding = roundingOf(energy_);
   for (int halving = 0; halving < kMaxHalvings; ++halving, *step *= 0.5) {

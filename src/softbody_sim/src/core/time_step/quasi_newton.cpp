@@ -176,7 +176,7 @@ bool QuasiNewton<Positions>::searchLine(const Energy& energy, Positions* x, doub
 /// at the end of the step decides (approximate Wolfe condition, Hager and Zhang 2005).
 template <typename Positions>
 bool QuasiNewton<Positions>::fallsEnough(double trial_energy, double slope, double step) const {
-  constexpr double kArmijo = 1e-4;
+  constexpr double kArmijo = 1e-4;  // Nocedal and Wright 2006, section 3.1
   if (trial_energy <= energy_.energy_j + kArmijo * step * slope) return true;
   return trial_energy <= energy_.energy_j + rounding() &&
          dot(trial_gradient_, direction_) <= (2.0 * kArmijo - 1.0) * slope;

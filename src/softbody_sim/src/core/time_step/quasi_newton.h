@@ -45,7 +45,7 @@ class QuasiNewton {
 
  private:
   using Scalar = typename Positions::Scalar;
-  static constexpr int kHistory = 5;
+  static constexpr int kHistory = 5;  ///< as Liu et al. 2017; each costs two products a step
   struct Pair {
     Positions move;  ///< x_{k+1} - x_k
     Positions gradient_change;

@@ -11,7 +11,7 @@
 namespace softbody {
 namespace {
 
-constexpr double kLargest = 1e6;
+constexpr double kLargest = 1e6;  // far above every measure of a body, in any unit
 
 void requireAbsolute(const char* field, const std::string& path) {
   if (std::filesystem::path(path).is_absolute()) return;

@@ -62,8 +62,8 @@ softbody_msgs::PrepareModelResult ModelServer::prepare(const softbody_msgs::Prep
 
 /// @param told share of the last feedback. @throw Cancelled
 void ModelServer::tell(double share, double* told) {
-  constexpr double kStep = 0.01;
-  if (share >= 1.0) return;  // written
+  constexpr double kStep = 0.01;  // a percent: what a bar shows
+  if (share >= 1.0) return;       // written
   if (ends_ || action_.isPreemptRequested()) throw Cancelled();
   if (share - *told < kStep) return;
   *told = share;

@@ -16,7 +16,7 @@ namespace {
 
 // The time of a step grows with both.
 constexpr std::size_t kMostPins = 1000, kMostObstacles = 1000;
-constexpr std::size_t kMostNamesSaid = 10;
+constexpr std::size_t kMostNamesSaid = 10;  // in one sentence
 
 std::string shortened(const std::string& name) { return name.substr(0, 100); }
 

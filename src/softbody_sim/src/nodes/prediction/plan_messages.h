@@ -11,7 +11,7 @@
 
 namespace softbody {
 
-constexpr double kLongestPrediction_s = 60.0;
+constexpr double kLongestPrediction_s = 60.0;  // 1800 steps; errors of the model grow with time
 
 /// @throw std::invalid_argument if times are not ascending above 0, up to kLongestPrediction_s.
 void requireAscending(const std::vector<double>& times, const std::string& what);

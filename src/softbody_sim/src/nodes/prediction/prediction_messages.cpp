@@ -14,7 +14,7 @@ namespace {
 constexpr double kShortestStep = 1e-3, kLongestStep = 1.0;  // [s]
 constexpr std::size_t kMostStates = 100000;                 // of one answer
 constexpr double kMostVertices = 2e7;                       // likewise: 240 MB
-constexpr std::size_t kMostFrames = 100;
+constexpr std::size_t kMostFrames = 100;                    // of tf: a robot has some tens
 
 }  // namespace
 

@@ -17,7 +17,7 @@
 namespace softbody {
 namespace {
 
-constexpr std::size_t kLongestFileName = 100;
+constexpr std::size_t kLongestFileName = 100;  // file systems allow 255 bytes
 
 /// A name without folders, so that a client cannot write elsewhere.
 void requireObjName(const std::string& name) {

@@ -24,7 +24,7 @@ Eigen::Vector3d normalOf(const Points& outline) {
 }  // namespace
 
 std::vector<int> partsOfSides(const Points& polygon, double spacing) {
-  constexpr double kMostParts = 400.0;
+  constexpr double kMostParts = 400.0;  // 1 mm of a blade of 20 cm; each is looked up in the tets
   Eigen::VectorXd lengths(polygon.rows());
   for (Eigen::Index i = 0; i < polygon.rows(); ++i)
     lengths[i] = (polygon.row((i + 1) % polygon.rows()) - polygon.row(i)).norm();

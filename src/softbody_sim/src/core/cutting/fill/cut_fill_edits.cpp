@@ -5,7 +5,7 @@
 namespace softbody {
 namespace {
 
-constexpr int kMaxPasses = 20;
+constexpr int kMaxPasses = 20;  // a bound: it ends when nothing changes
 
 double heightOf(const CutFill& fill, int a, int b, int c) {
   return smallestHeight(fill.points[a], fill.points[b], fill.points[c]);

@@ -7,7 +7,7 @@
 namespace softbody {
 namespace {
 
-constexpr int kLeafSize = 4;
+constexpr int kLeafSize = 4;  // a box is about as dear to test as a few triangles
 
 /// Six times the signed volume of the tet (a, b, p, q): its sign says on which side of the line p-q the line
 /// a-b passes. Computed in ascending order of p and q, so that both triangles at an edge get the same number

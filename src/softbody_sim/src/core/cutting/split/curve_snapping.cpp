@@ -8,7 +8,7 @@
 namespace softbody {
 namespace {
 
-constexpr int kMaxPasses = 20;
+constexpr int kMaxPasses = 20;  // a bound: it ends when nothing changes
 
 class Snapping {
  public:

@@ -34,7 +34,7 @@ bool onOneSide(const std::array<int, 3>& sides) { return sides[0] == sides[1] &&
 
 /// A fast test that avoids the exact predicates for most pairs.
 bool clearlyOnOneSide(const Corners& plane, const Corners& points) {
-  constexpr double kRounding = 1e-12;
+  constexpr double kRounding = 1e-12;  // far above that of a product of doubles
   const Eigen::Vector3d first = plane[1] - plane[0], second = plane[2] - plane[0],
                         normal = first.cross(second);
   const double scale = first.norm() * second.norm();

@@ -22,12 +22,12 @@ namespace {
 
 // Relative to the diagonal of the body's bounding box.
 constexpr double kSnapDistance = 1.0 / 20000.0;
-constexpr double kLowestTriangle = 1.0 / 400000.0;
-constexpr double kFlatness = 1.0 / 100000.0;
-constexpr double kRemeshDistance = 1.0 / 2000.0;
+constexpr double kLowestTriangle = 1.0 / 400000.0;  // above the rounding of Point32
+constexpr double kFlatness = 1.0 / 100000.0;        // of a patch: below what snapping moves
+constexpr double kRemeshDistance = 1.0 / 2000.0;    // 0.1 mm of a hand-sized body: not seen
 constexpr double kCoplanarDistance = 3.0 * kSnapDistance;
-constexpr double kOfLowTriangle = 0.01;
-constexpr int kAttempts = 6;
+constexpr double kOfLowTriangle = 0.01;  // of the height of its source
+constexpr int kAttempts = 6;             // a bound; each moves the patch farther
 
 /// "(-0.1, 0, 0.02)".
 std::string cornerText(const Eigen::RowVector3d& corner) {

@@ -11,7 +11,7 @@
 namespace softbody {
 namespace {
 
-constexpr int kMaxRepairs = 10;
+constexpr int kMaxRepairs = 10;  // a bound: it ends when nothing is left to repair
 
 class Stitching {
  public:

@@ -60,7 +60,7 @@ bool spare(const std::vector<int>& pinches, const std::vector<bool>& on_cut, std
 
 /// Cuts. If a vertex that was put on the cut pinches the surface, cuts again without it.
 Attempt cutWithoutPinches(const Crossed& crossed, const CutStroke& stroke) {
-  constexpr int kAttempts = 4;
+  constexpr int kAttempts = 4;  // a bound; each spares one more vertex
   const PatchIntersector patch(stroke.patch);
   const std::vector<int> known = nonManifoldVertices(crossed.topology.surface);
   std::vector<bool> spared(stroke.on_cut.size(), false);
