@@ -19,9 +19,7 @@ const std::vector<Feed>& feeds() {
       {"object_yaml", giveObjectYaml},
       {"tool_yaml", giveToolYaml},
       {"camera_yaml", giveCameraYaml},
-      {"parameters", giveParameters},
-      {"bag", giveBag},
-      {"cut", giveCut}};
+      {"parameters", giveParameters}};
   return kFeeds;
 }
 

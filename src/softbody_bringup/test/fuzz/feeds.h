@@ -13,7 +13,7 @@ struct Feed {
   void (*give)(std::string_view bytes);
 };
 
-/// All readers of files, and of cut patches.
+/// All readers of files.
 const std::vector<Feed>& feeds();
 
 /// @throw std::out_of_range if there is no such feed.
@@ -26,7 +26,5 @@ void giveObjectYaml(std::string_view bytes);
 void giveToolYaml(std::string_view bytes);
 void giveCameraYaml(std::string_view bytes);
 void giveParameters(std::string_view bytes);
-void giveBag(std::string_view bytes);
-void giveCut(std::string_view bytes);
 
 }  // namespace softbody::fuzz

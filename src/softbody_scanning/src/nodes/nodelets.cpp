@@ -1,8 +1,8 @@
 #include <pluginlib/class_list_macros.hpp>
 
 #include "nodes/scanner_node.h"
-#include "ros/nodes.h"
 #include "softbody_common/ros/node_nodelet.h"
+#include "softbody_scanning/ros/nodes.h"
 
 namespace softbody::scanning {
 

@@ -96,7 +96,15 @@ softbody_msgs::Cut planeCut(std::uint32_t revision, std::uint32_t stroke, Choice
 XmlRpc::XmlRpcValue simulatorParameters() {
   XmlRpc::XmlRpcValue parameters;
   parameters["object"] = block().yaml;
+  parameters["gripper"] = std::string("hand");
+  parameters["save_folder"] = scratch().string();
   return parameters;
+}
+
+softbody_msgs::LoadObject::Request blockFile() {
+  softbody_msgs::LoadObject::Request request;
+  request.object = block().yaml;
+  return request;
 }
 
 softbody_msgs::Targets blockTargets(const softbody_msgs::TetTopology& topology, bool reset, Choice* choice) {

@@ -2,6 +2,7 @@
 
 #include <softbody_msgs/Cut.h>
 #include <softbody_msgs/CutHistory.h>
+#include <softbody_msgs/LoadObject.h>
 #include <softbody_msgs/MeshState.h>
 #include <softbody_msgs/Targets.h>
 #include <softbody_msgs/TetTopology.h>
@@ -29,6 +30,9 @@ Eigen::Isometry3d blockPose();
 softbody_msgs::Cut planeCut(std::uint32_t revision, std::uint32_t stroke, Choice* choice);
 
 XmlRpc::XmlRpcValue simulatorParameters();
+
+/// Names the block's file.
+softbody_msgs::LoadObject::Request blockFile();
 
 /// Targets at the middles of some tets, at rest in blockPose(), with the present time.
 softbody_msgs::Targets blockTargets(const softbody_msgs::TetTopology& topology, bool reset, Choice* choice);

@@ -2,22 +2,20 @@
 
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
+#include <xmlrpcpp/XmlRpcValue.h>
 
 #include <functional>
 #include <memory>
+#include <set>
 #include <string>
-
-#include "fuzz/messages/lone_master.h"
 
 namespace softbody::fuzz {
 
-/// ROS inside of this process: no roscore is needed. Time is simulated, and goes on only by hand.
+/// ROS for this process alone, with a master that ends with it. Time is simulated, and goes on only by hand.
 class LoneRos {
  public:
   /// The one of this process.
   static LoneRos& instance();
-
-  LoneMaster& master() { return master_; }
 
   /// Ends ROS; the static objects of roscpp cannot do it by themselves.
   static void end() { ros::shutdown(); }
@@ -26,10 +24,12 @@ class LoneRos {
   void advance(double seconds);
   ros::Time now() const { return now_; }
 
+  /// Inputs of nodes, as "NODE INPUT": those that nodes have at their start, and those that are fuzzed.
+  std::set<std::string> heard, fuzzed;
+
  private:
   LoneRos();
 
-  LoneMaster master_;
   ros::Time now_{1000.0};
 };
 
@@ -45,10 +45,15 @@ class DrivenNode {
   DrivenNode(const DrivenNode&) = delete;
   DrivenNode& operator=(const DrivenNode&) = delete;
 
+  const std::string& name() const { return private_handle_.getNamespace(); }
+
   /// Of the topics beside the node. Subscribers called in process(), too.
   ros::NodeHandle& handle() { return handle_; }
   /// Of the node's services.
   ros::NodeHandle& privateHandle() { return private_handle_; }
+
+  /// Notes that a topic or service is fuzzed.
+  void noteFuzzed(const std::string& input);
 
   /// Runs all callbacks that wait.
   void process();

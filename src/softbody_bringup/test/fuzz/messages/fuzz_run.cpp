@@ -6,11 +6,9 @@
 #include <atomic>
 #include <chrono>
 #include <csignal>
-#include <cstdlib>
 #include <fstream>
 #include <memory>
 #include <stdexcept>
-#include <thread>
 
 #include "fuzz/messages/target.h"
 
@@ -18,7 +16,8 @@ namespace softbody::fuzz {
 namespace {
 
 constexpr std::size_t kMessagesPerCheck = 2000;
-constexpr double kLongest_s = 20.0;       // one message; the machine may be busy
+constexpr double kLongest_s = 20.0;  // one message; the machine may be busy
+constexpr unsigned kHang_s = 60;
 constexpr double kMostGrowth_mb = 300.0;  // allocators keep what they once had
 
 using Clock = std::chrono::steady_clock;
@@ -34,13 +33,14 @@ double residentMegabytes() {
   return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1e6;
 }
 
-/// Says where the run was when the process dies. The text is made before.
+/// Says where the run was when the process dies, and ends it if the next step hangs. The text is made before.
 class LastWords {
  public:
   LastWords() {
-    for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) std::signal(signal, &say);
+    for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGALRM}) std::signal(signal, &say);
   }
   static void set(const std::string& words) {
+    alarm(kHang_s);
     const std::size_t size = words.copy(text, sizeof(text));
     length = size;
   }
@@ -55,51 +55,26 @@ class LastWords {
   static inline std::atomic<std::size_t> length{0};
 };
 
-/// Ends the process when a message takes too long.
-class HangWatch {
- public:
-  HangWatch() : thread_([this] { watch(); }) {}
-  ~HangWatch() {
-    ends_ = true;
-    thread_.join();
-  }
-  void step() { ++steps_; }
-
- private:
-  void watch() {
-    std::size_t last = 0;
-    for (auto since = Clock::now(); !ends_; std::this_thread::sleep_for(std::chrono::milliseconds(50))) {
-      if (const std::size_t now = steps_; now != last) {
-        last = now;
-        since = Clock::now();
-      }
-      if (secondsSince(since) > 3.0 * kLongest_s) std::abort();
-    }
-  }
-  std::atomic<std::size_t> steps_{0};
-  std::atomic<bool> ends_{false};
-  std::thread thread_;
-};
-
 class FuzzRun {
  public:
   FuzzRun(const TargetKind& kind, std::uint64_t seed) : kind_(kind), seed_(seed), choice_(seed) {}
-  ~FuzzRun() { end(); }
+  ~FuzzRun() {
+    alarm(0);
+    end();
+  }
 
-  FuzzReport run(const FuzzLimits& limits) {
+  FuzzReport run(std::size_t messages) {
     make();
     const auto start = Clock::now();
     double settled_mb = 0.0;
     std::size_t next_check = 0, made_at = 0;
-    const auto done = [&] {
-      return report_.messages >= limits.messages || secondsSince(start) >= limits.seconds;
-    };
+    const auto done = [&] { return report_.messages >= messages; };
     do {
       if (report_.messages - made_at >= kind_.lifetime) {
         made_at = report_.messages;
         make();
       }
-      if (settled_mb == 0.0 && report_.messages >= limits.messages / 10) settled_mb = residentMegabytes();
+      if (settled_mb == 0.0 && report_.messages >= messages / 10) settled_mb = residentMegabytes();
       next_check = report_.messages + std::min(kMessagesPerCheck, kind_.lifetime);
       while (report_.fault.empty() && report_.messages < next_check && !done()) step();
       check();
@@ -150,7 +125,6 @@ class FuzzRun {
     report_.slowest_s = std::max(report_.slowest_s, seconds);
     if (seconds > kLongest_s)
       report_.fault = fmt::format("message {} took {:.0f} s", report_.messages, seconds);
-    watch_.step();
   }
 
   void check() {
@@ -159,7 +133,6 @@ class FuzzRun {
                                report_.messages));
     const std::string fault = target_->check();
     if (!fault.empty()) report_.fault = fmt::format("good messages after {}: {}", report_.messages, fault);
-    watch_.step();
   }
 
   const TargetKind& kind_;
@@ -170,14 +143,13 @@ class FuzzRun {
   std::size_t weights_ = 0;
   FuzzReport report_;
   LastWords words_;
-  HangWatch watch_;
 };
 
 }  // namespace
 
-FuzzReport fuzzNode(const std::string& node, std::uint64_t seed, const FuzzLimits& limits) {
+FuzzReport fuzzNode(const std::string& node, std::uint64_t seed, std::size_t messages) {
   for (const TargetKind& kind : targetKinds()) {
-    if (kind.name == node) return FuzzRun(kind, seed).run(limits);
+    if (kind.name == node) return FuzzRun(kind, seed).run(messages);
   }
   throw std::out_of_range("no node " + node);
 }

@@ -6,12 +6,6 @@
 
 namespace softbody::fuzz {
 
-/// When a run ends: at the first of both.
-struct FuzzLimits {
-  std::size_t messages = 0;  ///< mutated ones
-  double seconds = 0.0;
-};
-
 struct FuzzReport {
   std::size_t messages = 0;  ///< mutated ones that reached the node
   double seconds = 0.0;
@@ -20,9 +14,9 @@ struct FuzzReport {
   std::string fault;       ///< empty: none
 };
 
-/// Gives mutated messages to a node of targetKinds(), and after some of them looks whether it still does its
-/// work. A crash or a hang ends the process, with the seed and the number of the message.
+/// Gives a number of mutated messages to a node of targetKinds(), and after some of them looks whether it
+/// still does its work. A crash or a hang ends the process, with the seed and the number of the message.
 /// @throw std::out_of_range if there is no such node.
-FuzzReport fuzzNode(const std::string& node, std::uint64_t seed, const FuzzLimits& limits);
+FuzzReport fuzzNode(const std::string& node, std::uint64_t seed, std::size_t messages);
 
 }  // namespace softbody::fuzz

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <actionlib_msgs/GoalID.h>
 #include <ros/ros.h>
 
 #include <boost/make_shared.hpp>
@@ -9,7 +10,7 @@
 #include <utility>
 
 #include "fuzz/messages/driven_node.h"
-#include "fuzz/messages/message_mutator.h"
+#include "fuzz/messages/mutation.h"
 
 namespace softbody::fuzz {
 
@@ -22,6 +23,14 @@ class Input {
   virtual int give(bool bad, Choice* choice) = 0;
 };
 
+/// actionlib itself throws if a goal has a stamp near the end of time, and then refuses all goals before it.
+template <typename Message>
+auto withoutGoalStamp(Message* message) -> decltype(void(message->goal_id)) {
+  message->goal_id.stamp = ros::Time();
+}
+inline void withoutGoalStamp(actionlib_msgs::GoalID* id) { id->stamp = ros::Time(); }
+inline void withoutGoalStamp(void* /*no goal*/) {}
+
 /// A topic.
 template <typename Message>
 class TopicInput : public Input {
@@ -29,16 +38,21 @@ class TopicInput : public Input {
   using Good = std::function<Message()>;
 
   TopicInput(DrivenNode* node, const std::string& topic, Good good)
-      : node_(node), good_(std::move(good)), publisher_(node->handle().advertise<Message>(topic, 10)) {}
+      : node_(node), good_(std::move(good)), publisher_(node->handle().advertise<Message>(topic, 10)) {
+    node->noteFuzzed(publisher_.getTopic());
+  }
 
   int give(bool bad, Choice* choice) override {
     if (publisher_.getNumSubscribers() == 0) return 0;
     const auto message = boost::make_shared<Message>(good_());
     if (bad) mutate(message.get(), choice);
+    withoutGoalStamp(message.get());
     send(message);
     return bad ? 1 : 0;
   }
 
+  void send(const Message& message) { send(boost::make_shared<Message>(message)); }
+  void sendGood() { send(good_()); }
   void send(const boost::shared_ptr<Message>& message) {
     if (on_sent_) on_sent_(*message);
     publisher_.publish(message);
@@ -55,39 +69,49 @@ class TopicInput : public Input {
   ros::Publisher publisher_;
 };
 
-/// Calls a service while the node processes it. @return false: the node has not answered.
-template <typename Service>
-bool callService(DrivenNode* node, ros::ServiceClient* client, Service* service) {
-  auto call = std::async(std::launch::async, [&] { return client->call(*service); });
-  const auto done = [&] { return call.wait_for(std::chrono::seconds(0)) == std::future_status::ready; };
-  return node->processUntil(done) && call.get();
-}
-
 /// A service.
 template <typename Service>
 class ServiceInput : public Input {
  public:
-  using Good = std::function<typename Service::Request()>;
+  using Request = typename Service::Request;
+  using Good = std::function<Request()>;
 
   ServiceInput(DrivenNode* node, const std::string& name, Good good)
       : node_(node),
         good_(std::move(good)),
-        client_(node->privateHandle().serviceClient<Service>(name, true)) {}
+        client_(node->privateHandle().serviceClient<Service>(name, true)) {
+    node->noteFuzzed(client_.getService());
+  }
 
   int give(bool bad, Choice* choice) override {
-    Service service;
-    service.request = good_();
-    if (bad) mutate(&service.request, choice);
-    if (!client_.isValid())
-      client_ = node_->privateHandle().template serviceClient<Service>(client_.getService(), true);
-    if (!callService(node_, &client_, &service))
-      throw std::runtime_error(client_.getService() + " does not answer");
+    Request request = good_();
+    if (bad) mutate(&request, choice);
+    send(request);
     return bad ? 1 : 0;
   }
+
+  /// The node processes the call. @return its answer; empty if it refuses with an error.
+  typename Service::Response send(const Request& request) {
+    if (on_sent_) on_sent_(request);
+    if (!client_.isValid())
+      client_ = node_->privateHandle().template serviceClient<Service>(client_.getService(), true);
+    Service service;
+    service.request = request;
+    auto call = std::async(std::launch::async, [&] { return client_.call(service); });
+    const auto done = [&] { return call.wait_for(std::chrono::seconds(0)) == std::future_status::ready; };
+    if (!node_->processUntil(done) || (!call.get() && !client_.isValid()))
+      throw std::runtime_error(client_.getService() + " does not answer");
+    return service.response;
+  }
+  typename Service::Response sendGood() { return send(good_()); }
+
+  /// Called with every request.
+  void onSent(std::function<void(const Request&)> on_sent) { on_sent_ = std::move(on_sent); }
 
  private:
   DrivenNode* node_;
   Good good_;
+  std::function<void(const Request&)> on_sent_;
   ros::ServiceClient client_;
 };
 

@@ -34,10 +34,10 @@ class MarkerTarget : public Target {
 
   /// A new node has had no messages; after others a good mesh is shown, and a good pose is passed on.
   std::string check() override {
-    info_->send(boost::make_shared<sensor_msgs::CameraInfo>(info()));
+    info_->send(info());
     softbody_msgs::MeshTopology mesh = toMessage(block().model.visual);
     mesh.revision = ++revision_;
-    surface_->send(boost::make_shared<softbody_msgs::MeshTopology>(mesh));
+    surface_->send(mesh);
     move(0.25);
     move(0.5);
     // The server's messages come through another thread.
@@ -69,7 +69,7 @@ class MarkerTarget : public Target {
     Feedback moved = feedback();
     moved.event_type = Feedback::POSE_UPDATE;
     moved.pose.position.x = x;
-    feedback_->send(boost::make_shared<Feedback>(moved));
+    feedback_->send(moved);
     node_.process();
   }
 

@@ -1,12 +1,15 @@
 #include <fmt/format.h>
 #include <geometry_msgs/PolygonStamped.h>
+#include <softbody_msgs/ClosestPoint.h>
 #include <softbody_msgs/CutBody.h>
 #include <softbody_msgs/MeshTopology.h>
 #include <softbody_msgs/PreviewCut.h>
+#include <softbody_msgs/SaveMesh.h>
 #include <std_srvs/Trigger.h>
 
 #include "fuzz/messages/block.h"
 #include "fuzz/messages/target.h"
+#include "fuzz/scratch_files.h"
 #include "softbody_common/protocol/topics.h"
 #include "softbody_common/ros/conversions.h"
 #include "softbody_sim/ros/nodes.h"
@@ -19,8 +22,8 @@ namespace {
 class SurfaceTarget : public Target {
  public:
   SurfaceTarget()
-      : simulator_("simulator", simulatorParameters(), makeSimulatorNode),
-        surface_("surface", simulatorParameters(), makeSurfaceNode),
+      : surface_("surface", simulatorParameters(), makeSurfaceNode),
+        simulator_("simulator", simulatorParameters(), makeSimulatorNode),
         volume_(&simulator_, topics::kVolumeTopology),
         volume_edits_(&simulator_, topics::kVolumeCuts),
         volume_state_(&simulator_, topics::kVolumeState),
@@ -33,6 +36,8 @@ class SurfaceTarget : public Target {
       return choice_.oneIn(4) ? editedFurther(*volume_edits_.get(), &choice_) : *volume_edits_.get();
     });
     add<softbody_msgs::MeshState>(&surface_, topics::kVolumeState, 20, [this] { return volumeState(); });
+    add<softbody_msgs::Targets>(&surface_, topics::kTargets, 3,
+                                [this] { return blockTargets(*volume_.get(), false, &choice_); });
     add<geometry_msgs::PolygonStamped>(&surface_, topics::kToolBlade, 10, [this] { return blade(); });
     add<softbody_msgs::Cut>(&surface_, topics::kCut, 1, [this] {
       const std::uint32_t revision = volume_.get()->revision + 1;
@@ -42,22 +47,23 @@ class SurfaceTarget : public Target {
   }
 
   std::string check() override {
+    parameters_->sendGood();
     std::string fault = frames();
     if (!fault.empty()) return "before a cut: " + fault;
     softbody_msgs::CutBody::Response response;
     bool is_published = false;
     const ros::WallTime deadline = ros::WallTime::now() + ros::WallDuration(kPatience_s);
     while (!is_published && ros::WallTime::now() < deadline) {
-      call<std_srvs::Trigger>("reset", {});
+      reset_->sendGood();
       fault = frames();
       if (!fault.empty()) return "before a cut: " + fault;
-      response = call<softbody_msgs::CutBody>("cut", middle<softbody_msgs::CutBody>());
+      response = cut_->sendGood();
       fault = frames();
       if (!fault.empty()) return "after a cut: " + fault;
       is_published = response.success && topology_.get()->revision >= response.revision;
     }
     if (!is_published) return "no cut is possible, or none is published: " + response.message;
-    call<std_srvs::Trigger>("reset", {});
+    reset_->sendGood();
     fault = frames();
     return fault.empty() ? "" : "after a reset: " + fault;
   }
@@ -100,7 +106,7 @@ class SurfaceTarget : public Target {
   }
 
   template <typename Service>
-  typename Service::Request middle() const {
+  static typename Service::Request middle() {
     typename Service::Request request;
     request.point.x = 0.052;
     request.normal.x = 1.0;
@@ -108,25 +114,26 @@ class SurfaceTarget : public Target {
     return request;
   }
 
-  template <typename Service>
-  void addService(const std::string& name, typename ServiceInput<Service>::Good good) {
-    inputs.push_back({std::make_unique<ServiceInput<Service>>(&surface_, name, std::move(good)), 1});
-  }
-
   void addServices() {
-    addService<softbody_msgs::CutBody>("cut", [this] { return middle<softbody_msgs::CutBody>(); });
-    addService<softbody_msgs::PreviewCut>("preview", [this] { return middle<softbody_msgs::PreviewCut>(); });
-    for (const char* name : {"undo", "redo", "reset"})
-      addService<std_srvs::Trigger>(name, [] { return std_srvs::Trigger::Request(); });
-  }
-
-  template <typename Service>
-  typename Service::Response call(const std::string& name, const typename Service::Request& request) {
-    ros::ServiceClient client = surface_.privateHandle().serviceClient<Service>(name);
-    Service service;
-    service.request = request;
-    if (!callService(&surface_, &client, &service)) throw std::runtime_error(name + " does not answer");
-    return service.response;
+    parameters_ = addParameters(&surface_);
+    cut_ =
+        addService<softbody_msgs::CutBody>(&surface_, "cut", [] { return middle<softbody_msgs::CutBody>(); });
+    addService<softbody_msgs::PreviewCut>(&surface_, "preview",
+                                          [] { return middle<softbody_msgs::PreviewCut>(); });
+    for (const char* name : {"undo", "redo", "reset"})  // the last one stays known
+      reset_ = addService<std_srvs::Trigger>(&surface_, name, [] { return std_srvs::Trigger::Request(); });
+    addService<softbody_msgs::LoadObject>(&surface_, "prepare_object", [] { return blockFile(); });
+    addService<softbody_msgs::ClosestPoint>(&surface_, "closest_point", [] {
+      softbody_msgs::ClosestPoint::Request request;
+      request.point.point.z = 0.5;
+      return request;
+    });
+    addService<softbody_msgs::SaveMesh>(&surface_, "save_mesh", [] {
+      softbody_msgs::SaveMesh::Request request;
+      request.name = "saved.obj";
+      std::filesystem::remove(scratch() / request.name);
+      return request;
+    });
   }
 
   /// Good frames until simulator and surface agree. @return what does not fit.
@@ -136,8 +143,7 @@ class SurfaceTarget : public Target {
       LoneRos::instance().advance(0.033);
       process();
       const ros::Time stamp = LoneRos::instance().now();
-      targets_.send(
-          boost::make_shared<softbody_msgs::Targets>(blockTargets(*volume_.get(), i < 8, &choice_)));
+      targets_.send(blockTargets(*volume_.get(), i < 8, &choice_));
       process();
       fault = state_.hasStamp(stamp) ? whyApart() : "no state of the surface";
       constexpr int kFewestFrames = 12;
@@ -165,14 +171,17 @@ class SurfaceTarget : public Target {
   }
 
   Choice choice_{11};
-  double depth_m_ = 0.1;  ///< of the blade
-  DrivenNode simulator_, surface_;
+  double depth_m_ = 0.1;            ///< of the blade
+  DrivenNode surface_, simulator_;  ///< topics of both are the surface's, which comes first
   Newest<softbody_msgs::TetTopology> volume_;
   Newest<softbody_msgs::CutHistory> volume_edits_;
   Newest<softbody_msgs::MeshState> volume_state_;
   Newest<softbody_msgs::MeshTopology> topology_;
   Newest<softbody_msgs::MeshState> state_;
   TopicInput<softbody_msgs::Targets> targets_;
+  ParameterInput* parameters_;
+  ServiceInput<softbody_msgs::CutBody>* cut_;
+  ServiceInput<std_srvs::Trigger>* reset_;
 };
 
 }  // namespace

@@ -15,6 +15,12 @@ const std::vector<TargetKind>& targetKinds() {
       {"simulator_alone", makeLoneSimulatorTarget, kLong},
       {"surface", makeSurfaceTarget, kLong},
       {"transforms", makeTransformTarget, kLong},
+      {"injector", makeInjectorTarget, kLong},
+      {"scanner", makeScannerTarget, kLong},
+      {"recorder", makeRecorderTarget, kLong},
+      {"model_server", makeModelServerTarget, kLong},
+      {"rviz", makeDisplayTarget, kLong},
+      {"recordings", makeRecordingTarget, kLong},
   };
   return kinds;
 }

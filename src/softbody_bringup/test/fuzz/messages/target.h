@@ -1,5 +1,7 @@
 #pragma once
 
+#include <dynamic_reconfigure/Reconfigure.h>
+
 #include <cstddef>
 #include <functional>
 #include <memory>
@@ -35,6 +37,27 @@ class Target {
     inputs.push_back({std::move(input), weight});
     return result;
   }
+
+  template <typename Service>
+  ServiceInput<Service>* addService(DrivenNode* node, const std::string& name,
+                                    typename ServiceInput<Service>::Good good) {
+    auto input = std::make_unique<ServiceInput<Service>>(node, name, std::move(good));
+    ServiceInput<Service>* result = input.get();
+    inputs.push_back({std::move(input), 1});
+    return result;
+  }
+
+  using ParameterInput = ServiceInput<dynamic_reconfigure::Reconfigure>;
+  /// The live parameters. A good call gives their first values back.
+  ParameterInput* addParameters(DrivenNode* node) {
+    dynamic_reconfigure::Reconfigure::Request first;
+    {
+      const Newest<dynamic_reconfigure::Config> now(node, node->name() + "/parameter_updates");
+      node->processUntil([&] { return now.get() != nullptr; });
+      first.config = *now.get();
+    }
+    return addService<dynamic_reconfigure::Reconfigure>(node, "set_parameters", [first] { return first; });
+  }
 };
 
 /// How a target is made.
@@ -62,5 +85,13 @@ std::unique_ptr<Target> makeLoneSimulatorTarget();
 std::unique_ptr<Target> makeSurfaceTarget();
 /// What the nodes use of tf.
 std::unique_ptr<Target> makeTransformTarget();
+std::unique_ptr<Target> makeInjectorTarget();
+std::unique_ptr<Target> makeScannerTarget();
+std::unique_ptr<Target> makeRecorderTarget();
+std::unique_ptr<Target> makeModelServerTarget();
+/// Bags of a camera.
+std::unique_ptr<Target> makeRecordingTarget();
+/// rviz with the displays and the panel, on a virtual screen.
+std::unique_ptr<Target> makeDisplayTarget();
 
 }  // namespace softbody::fuzz

@@ -1,12 +1,19 @@
 #include <gtest/gtest.h>
 #include <tf2_msgs/TFMessage.h>
 
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <regex>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "fuzz/messages/driven_node.h"
 #include "fuzz/messages/fuzz_run.h"
-#include "fuzz/messages/message_mutator.h"
+#include "fuzz/messages/mutation.h"
 #include "fuzz/messages/target.h"
 #include "softbody_common/ros/transform_input.h"
 
@@ -32,9 +39,43 @@ INSTANTIATE_TEST_SUITE_P(Nodes, FuzzMessages, testing::ValuesIn(nodeNames()),
 
 /// `make fuzz` gives many more.
 TEST_P(FuzzMessages, ANodeWorksAfterMutatedMessages) {
-  const FuzzReport report = fuzzNode(GetParam(), 1, {2000, 2.0});
+  const FuzzReport report = fuzzNode(GetParam(), 1, 500);
   EXPECT_EQ(report.fault, "");
   EXPECT_GT(report.messages, 0u);
+}
+
+/// The nodelets of all packages, in small letters. The virtual camera has no input.
+std::set<std::string> nodelets() {
+  std::set<std::string> names;
+  for (const auto& package : std::filesystem::directory_iterator(CONFIG_DIR "/../..")) {
+    std::ifstream file(package.path() / "nodelet_plugins.xml");
+    const std::string text(std::istreambuf_iterator<char>(file), {});
+    const std::regex nodelet("class name=\"\\w+/(\\w+)");
+    for (std::sregex_iterator found(text.begin(), text.end(), nodelet), end; found != end; ++found) {
+      std::string name = (*found)[1];
+      for (char& letter : name) letter = static_cast<char>(std::tolower(letter));
+      names.insert(name);
+    }
+  }
+  names.erase("virtualcamera");
+  return names;
+}
+
+/// tf is one listener for all nodes, and a target of its own.
+TEST(FuzzMessages, EveryInputOfEveryNodeletIsFuzzed) {
+  for (const TargetKind& kind : targetKinds()) kind.make()->inputs.clear();
+  const LoneRos& ros = LoneRos::instance();
+  std::set<std::string> missing = nodelets();
+  EXPECT_GT(missing.size(), 8u);
+  for (const std::string& input : ros.heard) {
+    const std::size_t space = input.find(' ');
+    EXPECT_TRUE(ros.fuzzed.count(input) + ros.fuzzed.count("/softbody/tf" + input.substr(space)) > 0)
+        << input;
+    std::string node = input.substr(0, space).substr(std::string("/softbody/").size());
+    node.erase(std::remove(node.begin(), node.end(), '_'), node.end());
+    missing.erase(node);
+  }
+  EXPECT_TRUE(missing.empty()) << *missing.begin() << " is not fuzzed";
 }
 
 /// A frame whose time went back less often than another's: tf2 must forget its later transforms, too.

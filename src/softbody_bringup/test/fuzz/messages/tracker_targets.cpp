@@ -4,6 +4,7 @@
 #include <softbody_msgs/SetPose.h>
 #include <softbody_msgs/Targets.h>
 #include <softbody_msgs/TrackingStatus.h>
+#include <std_srvs/Trigger.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include "fuzz/messages/camera_frames.h"
@@ -18,7 +19,7 @@ namespace softbody::fuzz {
 namespace {
 
 constexpr int kWidth = 160, kHeight = 120;
-constexpr char kOptical[] = "camera_color_optical_frame", kWorld[] = "world";
+constexpr char kOptical[] = "camera_color_optical_frame", kWorld[] = "world", kKnown[] = "other/surface";
 
 const ObjectModel& sponge() {
   static const ObjectModel model = buildObjectModel(loadObjectDescription(CONFIG_DIR "/sponge.yaml"));
@@ -32,6 +33,7 @@ XmlRpc::XmlRpcValue trackerParameters(bool placed) {
   if (!placed) return parameters;
   parameters["output_frame"] = std::string(kWorld);
   parameters["mask_timeout_s"] = 0.001;
+  parameters["known_surfaces"][0] = std::string("/softbody/") + kKnown;
   return parameters;
 }
 
@@ -45,7 +47,8 @@ class TrackerTarget : public Target {
         node_("feature_tracker", trackerParameters(placed), makeFeatureTracker),
         status_(&node_, topics::kStatus),
         targets_(&node_, topics::kTargets),
-        set_pose_(node_.privateHandle().serviceClient<softbody_msgs::SetPose>("set_pose")) {
+        set_pose_(addService<softbody_msgs::SetPose>(&node_, "set_pose", [this] { return pose(); })),
+        parameters_(addParameters(&node_)) {
     auto images = std::make_unique<FrameInput>(&node_, kRectifiedTopics, &frames_);
     images_ = images.get();
     inputs.push_back({std::move(images), 200});
@@ -56,27 +59,32 @@ class TrackerTarget : public Target {
     state_ = add<softbody_msgs::MeshState>(&node_, topics::kVolumeState, 300, [this] { return state(); });
     add<geometry_msgs::PolygonStamped>(&node_, topics::kToolBlade, 200, [] { return blade(); });
     if (placed) {
+      known_surface_ = add<softbody_msgs::MeshTopology>(&node_, kKnown + std::string("/topology"), 20,
+                                                        [] { return toMessage(sponge().visual); });
+      known_state_ = add<softbody_msgs::MeshState>(&node_, kKnown + std::string("/state"), 50,
+                                                   [this] { return farAway(); });
       mask_ = add<sensor_msgs::Image>(&node_, topics::kMask, 200, [this] { return mask(); });
       tf_ = add<tf2_msgs::TFMessage>(&node_, "/tf_static", 20, [] { return cameraInWorld(); });
-      tf_->send(boost::make_shared<tf2_msgs::TFMessage>(cameraInWorld()));
+      tf_->sendGood();
       ros::WallDuration(0.05).sleep();  // tf has a thread of its own
     }
-    inputs.push_back({std::make_unique<ServiceInput<softbody_msgs::SetPose>>(&node_, "set_pose",
-                                                                             [this] { return pose(); }),
-                      1});
+    addService<std_srvs::Trigger>(&node_, "find_again", [] { return std_srvs::Trigger::Request(); });
   }
 
   std::string check() override {
     revision_ = 0;
-    if (tf_ != nullptr) tf_->send(boost::make_shared<tf2_msgs::TFMessage>(cameraInWorld()));
-    send(volume_, volume());
-    send(surface_, surface());
+    parameters_->sendGood();
+    if (tf_ != nullptr) tf_->sendGood();
+    volume_->sendGood();
+    surface_->sendGood();
+    if (known_surface_ != nullptr) known_surface_->sendGood();
     for (int i = 0; i < kGoodFrames; ++i) {
       // As a person does who sees that the body is lost.
-      if (i == kGoodFrames / 4 || i == kGoodFrames / 2) restart();
+      if (i == kGoodFrames / 4 || i == kGoodFrames / 2) set_pose_->sendGood();
       images_->giveGood();
-      if (mask_ != nullptr) send(mask_, mask());
-      send(state_, state());
+      if (mask_ != nullptr) mask_->sendGood();
+      if (known_state_ != nullptr) known_state_->sendGood();
+      state_->sendGood();
     }
     if (status_.get() == nullptr) return "no status comes";
     if (!status_.hasStamp(LoneRos::instance().now())) return "no status of the last frame";
@@ -87,17 +95,6 @@ class TrackerTarget : public Target {
 
  private:
   static constexpr int kGoodFrames = 60;
-
-  template <typename Message>
-  static void send(TopicInput<Message>* input, const Message& message) {
-    input->send(boost::make_shared<Message>(message));
-  }
-
-  void restart() {
-    softbody_msgs::SetPose call;
-    call.request = pose();
-    if (!callService(&node_, &set_pose_, &call)) throw std::runtime_error("set_pose does not answer");
-  }
 
   std::uint32_t revision() {
     if (choice_.oneIn(50)) ++revision_;
@@ -119,9 +116,16 @@ class TrackerTarget : public Target {
   }
 
   softbody_msgs::MeshState state() {
+    return stateOf(transformed(sponge().volume.rest_vertices, bodyPose()), revision_);
+  }
+
+  /// Another body, which hides nothing.
+  softbody_msgs::MeshState farAway() { return stateOf(sponge().visual.rest_vertices.array() + 5.0, 0); }
+
+  softbody_msgs::MeshState stateOf(const Points& vertices, std::uint32_t revision) const {
     MeshState state;
-    state.revision = revision_;
-    state.vertices = transformed(sponge().volume.rest_vertices, bodyPose());
+    state.revision = revision;
+    state.vertices = vertices;
     state.confidence.assign(static_cast<std::size_t>(state.vertices.rows()), 1.0f);
     softbody_msgs::MeshState message = toMessage(state);
     message.header.frame_id = frame_;
@@ -188,11 +192,14 @@ class TrackerTarget : public Target {
   DrivenNode node_;
   Newest<softbody_msgs::TrackingStatus> status_;
   Newest<softbody_msgs::Targets> targets_;
-  ros::ServiceClient set_pose_;
+  ServiceInput<softbody_msgs::SetPose>* set_pose_;
+  ParameterInput* parameters_;
   FrameInput* images_;
   TopicInput<softbody_msgs::TetTopology>* volume_;
   TopicInput<softbody_msgs::MeshTopology>* surface_;
   TopicInput<softbody_msgs::MeshState>* state_;
+  TopicInput<softbody_msgs::MeshTopology>* known_surface_ = nullptr;
+  TopicInput<softbody_msgs::MeshState>* known_state_ = nullptr;
   TopicInput<sensor_msgs::Image>* mask_ = nullptr;
   TopicInput<tf2_msgs::TFMessage>* tf_ = nullptr;
 };

@@ -25,8 +25,8 @@ class TransformTarget : public Target {
     constexpr int kGood = 100;
     for (int i = 0; i < kGood; ++i) {
       LoneRos::instance().advance(0.033);
-      fixed_->send(boost::make_shared<tf2_msgs::TFMessage>(camera()));
-      moving_->send(boost::make_shared<tf2_msgs::TFMessage>(robot()));
+      fixed_->send(camera());
+      moving_->send(robot());
     }
     const ros::Time stamp = LoneRos::instance().now();
     const auto known = [&] { return input_->buffer().canTransform("base", "optical", stamp); };
