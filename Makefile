@@ -11,7 +11,7 @@ $(shell mkdir -p $(HOME))
 endif
 
 .PHONY: build development test shared-data recordings meshes cuts demo bench fuzz evaluate starts latency scans figures paper validation growth
-.PHONY: sanitize soak parameter-tables api tidy format
+.PHONY: sanitize soak reload rviz-loop parameter-tables api tidy format
 .PHONY: clean help dependencies
 
 build: dependencies  ## build everything; afterwards: . catkin_ws/devel/setup.bash
@@ -43,7 +43,7 @@ meshes: dependencies  ## prepare 100 meshes with defects and check verdict, volu
 cuts: dependencies  ## cut sponge, torus, spot and the toy of ../shared/data 10,000 times at random, and measure the memory of cut bodies (slow)
 	scripts/build
 	scripts/build tests
-	scripts/cuts
+	scripts/soaking/reliability "make cuts" scripts/cuts
 
 demo: build  ## track a virtual sponge: in rviz with a display, otherwise with pictures and values in demo_output/
 	catkin_ws/devel/env.sh rosrun softbody_bringup demo
@@ -51,9 +51,9 @@ demo: build  ## track a virtual sponge: in rviz with a display, otherwise with p
 bench: development  ## run the benchmarks; writes bench/summary.json and docs/measured/benchmarks.md
 	scripts/bench
 
-fuzz: development  ## give mutated files to every reader and mutated messages to every node, FUZZ_SECONDS=60 each
+fuzz: development  ## give 1,000,000 mutated messages to every node, and 1,000,000 mutated files to all readers. MESSAGES=1000 FILES=1000: a short run
 	scripts/install_dependencies scripts/optional_packages/fuzz.txt
-	scripts/fuzz
+	scripts/soaking/reliability $(if $(MESSAGES)$(FILES),--print) "make fuzz" scripts/fuzz
 
 evaluate: build  ## measure all scenes and write docs/evaluation.md. SCENES="bend cut": only these scenes, writes nothing
 	scripts/evaluate $(SCENES)
@@ -80,10 +80,21 @@ growth: development  ## measure how time and memory grow with tets, pieces, vert
 	scripts/growth
 
 sanitize: dependencies  ## build with sanitizers (address and undefined, thread) and run tests, replay and the live graph (hours)
-	scripts/sanitize
+	scripts/soaking/reliability $(if $(PARTS),--print) "make sanitize" scripts/sanitize
 
 soak: build  ## run two live graphs for SOAK_MINUTES=60 with faults, cuts and killed nodes. KILLS=500: until 500 kills, one every 3 s
-	bash -c '. catkin_ws/devel/setup.bash && exec scripts/soak --minutes $(or $(SOAK_MINUTES),60) $(if $(KILLS),--kills $(KILLS))'
+	bash -c '. catkin_ws/devel/setup.bash && exec scripts/soaking/reliability $(if $(SOAK_MINUTES),--print) "make soak$(KILLS:%= KILLS=%)" \
+	  scripts/soak --minutes $(or $(SOAK_MINUTES),60) $(KILLS:%=--kills %)'
+
+reload: dependencies  ## load and unload all nodelets ROUNDS=200 times in one manager: its threads and its memory must not grow
+	scripts/build
+	scripts/build tests
+	LOAD_ROUNDS=$(or $(ROUNDS),200) scripts/soaking/reliability $(if $(ROUNDS),--print) "make reload" \
+	  scripts/soaking/rostest_lines src/softbody_bringup/test/restart/load_unload.test "[0-9]+ rounds: .*"
+
+rviz-loop: build  ## run rviz for RVIZ_MINUTES=10 beside a bag that is played in a loop: it must go on drawing
+	bash -c '. catkin_ws/devel/setup.bash && exec scripts/soaking/reliability $(if $(RVIZ_MINUTES),--print) "make rviz-loop" \
+	  scripts/soaking/rviz_loop $(or $(RVIZ_MINUTES),10)'
 
 parameter-tables: build  ## write the tables of parameters in docs/ from the nodes
 	. catkin_ws/devel/setup.sh && scripts/checks/parameter_tables

@@ -1,4 +1,4 @@
-"""Cuts, undo and kills, all from one seed."""
+"""Cuts, undo and kills, all at random, and always the same."""
 import random
 import signal
 import threading
@@ -10,27 +10,47 @@ from softbody_msgs.msg import MeshTopology
 from softbody_msgs.srv import CutBody
 from std_srvs.srv import Trigger
 
-EDITS = ["cut"] * 5 + ["undo"] * 3 + ["redo", "reset"]
+from soaking.processes import memory_mb
+
+EDITS = ["cut"] * 5 + ["undo"] * 2 + ["redo"] + ["reset"] * 2
+SETTLED_S = 1.0  # after a reset, until its memory is free
 SCENE_S = 14.0  # the knife's scene is over: the camera starts again, with a whole body
 
 
 class Editor(threading.Thread):
-    """Calls the surface's services at random. What a service refuses is counted."""
+    """Calls the surface's services at random. What a service refuses is counted. The memory of all nodes is measured where the
+    body is whole: cuts need memory, and edits can be undone."""
 
-    def __init__(self, side, seed, stop):
+    def __init__(self, graph, side, begin, end, stop):
         super().__init__(daemon=True)
-        self.side, self.random, self.stop = side, random.Random(seed), stop
+        self.graph, self.side, self.random = graph, side, random.Random(side.namespace)
+        self.begin, self.end, self.stop = begin, end, stop
         self.counts = {}
+        self.memory = {}  # (node, process id): (time, MB)
         self.box = None
 
     def run(self):
-        while not self.stop.wait(self.random.uniform(1.5, 4.0)):
-            edit = self.random.choice(EDITS)
-            try:
-                answer = self.cut() if edit == "cut" else self.call(edit, Trigger)()
-                self.count(f"{edit} {'made' if answer.success else 'refused'}")
-            except (rospy.ServiceException, rospy.ROSException):
-                self.count(f"{edit} without an answer")  # the node was killed
+        wait = self.begin - time.time()
+        while not self.stop.wait(wait) and time.time() < self.end:
+            self.edit(self.random.choice(EDITS))
+            wait = self.random.uniform(1.5, 4.0)
+        self.edit("reset")  # the calm at the end has a whole body, as that at the beginning
+
+    def edit(self, edit):
+        try:
+            answer = self.cut() if edit == "cut" else self.call(edit, Trigger)()
+        except (rospy.ServiceException, rospy.ROSException):
+            return self.count(f"{edit} without an answer")  # the node was killed
+        self.count(f"{edit} {'made' if answer.success else 'refused'}")
+        if edit == "reset" and "on its way" not in answer.message and not self.stop.wait(SETTLED_S):
+            self.measure()
+        return None
+
+    def measure(self):
+        for name, pid in self.graph.nodes().items():
+            size = memory_mb(pid) if name.startswith(self.side.namespace + "/") else None
+            if size:
+                self.memory.setdefault((name, pid), []).append((time.time(), size))
 
     def count(self, what):
         self.counts[what] = self.counts.get(what, 0) + 1
@@ -57,7 +77,7 @@ class Killer(threading.Thread):
         self.graph, self.sides, self.stop = graph, sides, stop
         self.begin, self.end = begin, end
         self.period, self.left = options.kill_every, options.kills
-        self.random = random.Random(options.seed)
+        self.random = random.Random(1)
         self.done = 0
 
     def run(self):

@@ -6,6 +6,11 @@ import subprocess
 import threading
 import time
 
+import rosgraph
+
+from live.graph import MARK, free_port, processes_of
+from live.process_times import command_line
+
 _DIED = re.compile(r"\[([\w/]+)-\d+\] process has died \[pid (\d+), exit code (-?\d+)")
 _FINISHED = re.compile(r"\[([\w/]+)-\d+\] process has finished cleanly")
 _STUBBORN = re.compile(r"\[([\w/]+)-\d+\] escalating to (SIG\w+)")
@@ -13,17 +18,26 @@ _LISTED_S = 0.5  # a look at /proc is good for so long
 
 
 class Graph:
-    """A running roslaunch. Its output goes to a file."""
+    """A running roslaunch with a master of its own. Its output goes to graph.log of a folder, and what ROS keeps to folders there."""
 
-    def __init__(self, command, log_path):
+    def __init__(self, arguments, output):
+        port = free_port()
+        os.environ.setdefault("ROS_HOME", str(output / "ros"))
+        os.environ.setdefault("ROS_LOG_DIR", str(output / "ros/log"))
+        os.environ.setdefault("XDG_CACHE_HOME", str(output / "cache"))
+        os.environ.update(ROS_MASTER_URI=f"http://127.0.0.1:{port}", ROS_IP="127.0.0.1", ROSCONSOLE_STDOUT_LINE_BUFFERED="1",
+                          **{MARK: str(port)})
+        self._mark = str(port)
         self.killed = {}  # pid: time of our signal
         self.faults = []  # sentences on processes that ended by themselves or did not end
         self._nodes, self._listed = {}, 0.0
         self._ending = False
-        self._launch = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace",
-                                        start_new_session=True)
-        self._reader = threading.Thread(target=self._read, args=(log_path,), daemon=True)
+        self._launch = subprocess.Popen(["roslaunch", "-p", str(port), *arguments], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                                        text=True, errors="replace", start_new_session=True)
+        self._reader = threading.Thread(target=self._read, args=(output / "graph.log",), daemon=True)
         self._reader.start()
+        while self.runs() and not rosgraph.is_master_online():
+            time.sleep(0.1)
 
     def _read(self, log_path):
         with open(log_path, "w", encoding="utf-8") as log:
@@ -47,12 +61,12 @@ class Graph:
     def nodes(self):
         """Process id by full node name."""
         if time.monotonic() - self._listed > _LISTED_S:
-            self._nodes, self._listed = dict(_nodes_below(self._launch.pid)), time.monotonic()
+            self._nodes, self._listed = dict(_nodes_of(self._mark)), time.monotonic()
         return self._nodes
 
     def kill(self, name, number=signal.SIGKILL):
         """@return whether the node was there."""
-        pid = dict(_nodes_below(self._launch.pid)).get(name)
+        pid = dict(_nodes_of(self._mark)).get(name)
         if pid is None:
             return False
         self.killed[pid] = time.time()
@@ -72,33 +86,17 @@ class Graph:
         self._reader.join(10)
 
 
-def _nodes_below(root):
-    parents = {}
-    for entry in filter(str.isdigit, os.listdir("/proc")):
+def _nodes_of(mark):
+    """Name and process id of each node."""
+    for pid in processes_of(mark):
+        names = [word[len("__name:="):] for word in command_line(pid) if word.startswith("__name:=")]
         try:
-            with open(f"/proc/{entry}/stat", encoding="utf-8") as stat:
-                parents[int(entry)] = int(stat.read().rsplit(")", 1)[1].split()[1])
+            with open(f"/proc/{pid}/environ", "rb") as variables:
+                spaces = [word[14:].decode() for word in variables.read().split(b"\0") if word.startswith(b"ROS_NAMESPACE=")]
         except OSError:
             continue  # the process has ended
-    children = {root}
-    for pid in sorted(parents):
-        if parents[pid] in children:
-            children.add(pid)
-            name = _node_name(pid)
-            if name:
-                yield name, pid
-
-
-def _node_name(pid):
-    try:
-        with open(f"/proc/{pid}/cmdline", encoding="utf-8") as line, open(f"/proc/{pid}/environ", encoding="utf-8") as variables:
-            names = [word[8:] for word in line.read().split("\0") if word.startswith("__name:=")]
-            spaces = [word[14:] for word in variables.read().split("\0") if word.startswith("ROS_NAMESPACE=")]
-    except (OSError, UnicodeDecodeError):
-        return None
-    if not names:
-        return None
-    return f"/{spaces[0].strip('/')}/{names[0]}" if spaces and spaces[0].strip("/") else f"/{names[0]}"
+        if names:
+            yield "/".join(["", *filter(None, spaces[0].split("/") if spaces else []), names[0]]), pid
 
 
 def memory_mb(pid):

@@ -5,7 +5,13 @@ import time
 
 import rospy
 
-BEFORE_S, AFTER_S = 0.5, 1.0  # frames so close to a kill need no answer
+BEFORE_S = 0.5  # frames so close before a kill need no answer
+
+
+def recovery_s(node):
+    """Longest time until a killed node works again [s]; a frame in this time needs no answer. A manager on an idle computer starts
+    0.6 s after its kill, loads its libraries in 1.5 s and the scene of its camera in 1.1 s; beside another graph it may take more."""
+    return 5.0 if node.endswith("/manager") else 2.0
 
 
 def _header(buffer):
@@ -51,7 +57,7 @@ class Side:
                 self.longest_apart = max(self.longest_apart, now - self.apart_since)
 
     def _is_calm(self, moment):
-        return not any(kill - BEFORE_S <= moment <= kill + AFTER_S for kill, _ in self.kills)
+        return not any(kill - BEFORE_S <= moment <= kill + recovery_s(node) for kill, node in self.kills)
 
     def unanswered(self, begin, end):
         """Stamps of frames that got no state although no kill was near, and the number of all such frames."""
@@ -60,17 +66,20 @@ class Side:
             due = [stamp for stamp in self.frames if begin <= stamp < end and self._is_calm(stamp)]
         return [stamp for stamp in due if stamp not in answered], len(due)
 
-    def recoveries(self, end):
-        """(time until a state of a later frame came [s], node) for each kill; infinite if none came within a minute. Kills of
-        the camera and of its connection do not count: there are no frames until they are back."""
+    def slowest_recoveries(self, end):
+        """(limit [s], (time until a state of a later frame came [s], node)) of the kills with each limit; infinite if none came
+        within a minute. A kill during a recovery begins it anew. Kills of the camera and of its connection do not count: there
+        are no frames until they are back."""
         with self.lock:
             states = list(self.states)
-        answers = []
-        for kill, name in self.kills:
-            if kill < end and not name.endswith(("/virtual_camera", "/injector")):
-                times = (arrival - kill for stamp, arrival in states if kill < stamp and arrival < kill + 60)
-                answers.append((min(times, default=float("inf")), name))
-        return answers
+        slowest = {}
+        for kill, node in self.kills:
+            times = (arrival - kill for stamp, arrival in states if kill < stamp and arrival < kill + 60)
+            time_s = min(times, default=float("inf"))
+            again = any(kill < other < kill + time_s for other, _ in self.kills)
+            if kill < end and not again and not node.endswith(("/virtual_camera", "/injector")):
+                slowest.setdefault(recovery_s(node), []).append((time_s, node))
+        return [(limit, max(times)) for limit, times in sorted(slowest.items())]
 
     def latency(self, begin, end):
         """Median time from a frame's stamp to its state [s], away from kills; None without states."""
