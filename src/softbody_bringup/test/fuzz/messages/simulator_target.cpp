@@ -32,7 +32,7 @@ class SimulatorTarget : public Target {
         edits_(&node_, topics::kVolumeCuts),
         state_(&node_, topics::kVolumeState) {
     node_.process();
-    targets_ = add<softbody_msgs::Targets>(&node_, topics::kTargets, 12, [this] {
+    targets_ = add<softbody_msgs::Targets>(&node_, topics::kTargets, 60, [this] {
       return blockTargets(*topology_.get(), choice_.oneIn(30), &choice_);
     });
     add<softbody_msgs::PinRegion>(&node_, topics::kPin, 1, [this] {
