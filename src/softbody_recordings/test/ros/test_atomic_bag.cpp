@@ -1,8 +1,9 @@
 #include "softbody_recordings/ros/atomic_bag.h"
 
-#include <gtest/gtest.h>
 #include <std_msgs/String.h>
 #include <sys/resource.h>
+#include <test_support/gtest.h>
+#include <test_support/scratch_folder.h>
 
 #include <csignal>
 #include <random>
@@ -17,16 +18,11 @@ namespace fs = std::filesystem;
 class AtomicBagTest : public testing::TestWithParam<rosbag::CompressionType> {
  protected:
   AtomicBagTest() {
-    std::string name = (fs::temp_directory_path() / "softbody_bag_XXXXXX").string();
-    folder_ = mkdtemp(name.data());
     writeBytes(output(), "earlier");
     std::signal(SIGXFSZ, SIG_IGN);
     getrlimit(RLIMIT_FSIZE, &before_);
   }
-  ~AtomicBagTest() override {
-    setrlimit(RLIMIT_FSIZE, &before_);
-    fs::remove_all(folder_);
-  }
+  ~AtomicBagTest() override { setrlimit(RLIMIT_FSIZE, &before_); }
 
   /// What a full disk does: a file cannot grow beyond some bytes.
   void limitFiles(rlim_t bytes) {
@@ -37,7 +33,10 @@ class AtomicBagTest : public testing::TestWithParam<rosbag::CompressionType> {
   fs::path output() const { return folder_ / "out.bag"; }
 
   /// Writes two megabytes that cannot be compressed. @return the error; empty: none.
-  std::string write() try {
+  std::string write() {
+    return complaint<std::runtime_error>([this] { writeAll(); });
+  }
+  void writeAll() {
     AtomicBag bag(output(), GetParam());
     std::mt19937 random(1);
     std_msgs::String noise;
@@ -47,17 +46,14 @@ class AtomicBagTest : public testing::TestWithParam<rosbag::CompressionType> {
       bag.write("/noise", ros::Time(1 + k), noise);
     }
     bag.finish();
-    return "";
-  } catch (const std::runtime_error& error) {
-    return error.what();
   }
 
   void expectEarlierOnly() const {
     EXPECT_EQ(fs::file_size(output()), 7u);
-    EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1);
+    EXPECT_EQ(std::distance(fs::directory_iterator(fs::path(folder_)), fs::directory_iterator()), 1);
   }
 
-  fs::path folder_;
+  const test::ScratchFolder folder_;
   rlimit before_{};
 };
 

@@ -1,5 +1,6 @@
-#include <gtest/gtest.h>
 #include <rosbag/bag.h>
+#include <test_support/gtest.h>
+#include <test_support/scratch_folder.h>
 #include <tf2_eigen/tf2_eigen.h>
 #include <tf2_msgs/TFMessage.h>
 
@@ -23,9 +24,7 @@ ros::Time after(double seconds) { return ros::Time(kBegin_s + seconds); }
 class TransformBag {
  public:
   explicit TransformBag(const std::string& name)
-      : path_(fs::temp_directory_path() / (name + std::to_string(::getpid()) + ".bag")),
-        bag_(path_, rosbag::bagmode::Write) {}
-  ~TransformBag() { fs::remove(path_); }
+      : path_(folder_ / (name + ".bag")), bag_(path_, rosbag::bagmode::Write) {}
 
   void add(const std::string& parent, const std::string& child, double seconds, const Eigen::Isometry3d& pose,
            const char* topic = "/tf") {
@@ -56,6 +55,7 @@ class TransformBag {
   }
 
  private:
+  test::ScratchFolder folder_;
   fs::path path_;
   rosbag::Bag bag_;
 };
@@ -178,10 +178,8 @@ TEST(BagTransforms, WhatTf2RefusesIsLeftOutAndSaidOnce) {
     expectAsTf2("world", "camera", after(t), transforms, both.buffer);
   }
   ASSERT_EQ(transforms.warnings().size(), 3u);
-  EXPECT_NE(transforms.warnings()[0].find("1 transform of frame ''"), std::string::npos)
-      << transforms.warnings()[0];
-  EXPECT_NE(transforms.warnings()[1].find("10 transforms of frame 'camera'"), std::string::npos)
-      << transforms.warnings()[1];
+  EXPECT_TRUE(says(transforms.warnings()[0], "1 transform of frame ''"));
+  EXPECT_TRUE(says(transforms.warnings()[1], "10 transforms of frame 'camera'"));
 }
 
 TEST(BagTransforms, AGapCountsOnlyWhereTheFrameMovedMeanwhile) {

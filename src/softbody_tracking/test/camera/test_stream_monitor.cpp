@@ -1,4 +1,4 @@
-#include <gtest/gtest.h>
+#include <test_support/gtest.h>
 
 #include "camera/stream_monitor.h"
 

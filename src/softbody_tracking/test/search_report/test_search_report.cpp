@@ -1,4 +1,4 @@
-#include <gtest/gtest.h>
+#include <test_support/gtest.h>
 
 #include "fixtures/synthetic_scene.h"
 #include "registration/box_mesh.h"
@@ -20,8 +20,7 @@ void expectWords(const SearchReport& report, const std::vector<std::string>& wor
   ASSERT_FALSE(report.found);
   const std::string sentence = whyNotFound(report);
   EXPECT_EQ(sentence.rfind("the body was not found: ", 0), 0U) << sentence;
-  for (const std::string& word : words)
-    EXPECT_NE(sentence.find(word), std::string::npos) << word << " in: " << sentence;
+  for (const std::string& word : words) EXPECT_TRUE(says(sentence, word)) << word << " in: ";
 }
 
 /// The box and another one that touches it, at the same distance.

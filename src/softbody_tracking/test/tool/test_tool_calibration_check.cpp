@@ -1,4 +1,4 @@
-#include <gtest/gtest.h>
+#include <test_support/gtest.h>
 
 #include "fixtures/tool_scene.h"
 #include "softbody_tracking/tool/tool_calibration_check.h"
@@ -43,7 +43,7 @@ TEST(ToolCalibrationCheck, NamesTheSizeThatDepthAsksFor) {
   const ToolCalibrationReport report = check(wrong);
   EXPECT_NEAR(report.depth_ratio, 1.25, 0.01);
   ASSERT_EQ(report.faults.size(), 1u);
-  EXPECT_NE(report.faults[0].find("not 48.0"), std::string::npos) << report.faults[0];
+  EXPECT_TRUE(says(report.faults[0], "not 48.0"));
 }
 
 TEST(ToolCalibrationCheck, NamesTheFocalLengthThatDepthAsksFor) {
@@ -55,7 +55,7 @@ TEST(ToolCalibrationCheck, NamesTheFocalLengthThatDepthAsksFor) {
 TEST(ToolCalibrationCheck, SaysThatTheToolIsNotSeen) {
   const ToolCalibrationReport report = check(knife(), 1.0, false);
   ASSERT_EQ(report.faults.size(), 1u);
-  EXPECT_NE(report.faults[0].find("0 of 8"), std::string::npos) << report.faults[0];
+  EXPECT_TRUE(says(report.faults[0], "0 of 8"));
 }
 
 }  // namespace

@@ -1,9 +1,8 @@
-#include <gtest/gtest.h>
-#include <unistd.h>
+#include <test_support/gtest.h>
+#include <test_support/scratch_folder.h>
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 
 #include "softbody_tracking/tool/tool_description.h"
 
@@ -12,28 +11,13 @@ namespace {
 
 class ToolDescriptionTest : public testing::Test {
  protected:
-  ToolDescriptionTest()
-      : folder_(std::filesystem::temp_directory_path() / ("softbody_tool_" + std::to_string(getpid()))) {
-    std::filesystem::create_directories(folder_);
-  }
-  ~ToolDescriptionTest() override { std::filesystem::remove_all(folder_); }
-
-  std::string file(const std::string& text) {
-    const auto path = folder_ / "tool.yaml";
-    std::ofstream(path) << text;
-    return path.string();
-  }
+  std::string file(const std::string& text) const { return folder_.write("tool.yaml", text); }
 
   std::string refusal(const std::string& text) {
-    try {
-      loadToolDescription(file(text));
-    } catch (const std::invalid_argument& error) {
-      return error.what();
-    }
-    return "";
+    return complaint([&] { loadToolDescription(file(text)); });
   }
 
-  std::filesystem::path folder_;
+  const test::ScratchFolder folder_;
 };
 
 const char kMarker[] = "{id: 7, size_m: 0.064, pose: [0.1, 0, 0, 0, 0, 0, 1]}";
@@ -76,9 +60,8 @@ TEST_F(ToolDescriptionTest, AFrameOfTfMayTakeThePlaceOfMarkers) {
   EXPECT_TRUE(knife.warnings.empty());
   EXPECT_THROW(loadToolWithMarkers(file("tool:\n  frame: knife_link\n" + blade)), std::invalid_argument);
 
-  EXPECT_NE(refusal(tool("DICT_4X4_50", kMarker, "  frame: knife_link\n")).find("frame and markers"),
-            std::string::npos);
-  EXPECT_NE(refusal("tool: {frame: [knife_link]}").find("tool/frame must be a text"), std::string::npos);
+  EXPECT_TRUE(says(refusal(tool("DICT_4X4_50", kMarker, "  frame: knife_link\n")), "frame and markers"));
+  EXPECT_TRUE(says(refusal("tool: {frame: [knife_link]}"), "tool/frame must be a text"));
 
   const ToolDescription marked = loadToolWithMarkers(file(tool("DICT_4X4_50", kMarker, blade)));
   EXPECT_EQ(inFrame(marked, "").markers.size(), 1u);
@@ -93,8 +76,8 @@ TEST_F(ToolDescriptionTest, TheBladeIsOptionalAndUnknownKeysAreWarnedOf) {
       loadToolDescription(file(tool("DICT_4X4_50", "{id: 1, size_m: 0.02, colour: red}", "  balde: []\n")));
   EXPECT_EQ(description.blade.rows(), 0);
   ASSERT_EQ(description.warnings.size(), 2u);
-  EXPECT_NE(description.warnings[0].find("tool/markers[0]/colour"), std::string::npos);
-  EXPECT_NE(description.warnings[1].find("tool/balde"), std::string::npos);
+  EXPECT_TRUE(says(description.warnings[0], "tool/markers[0]/colour"));
+  EXPECT_TRUE(says(description.warnings[1], "tool/balde"));
 }
 
 TEST_F(ToolDescriptionTest, BadFilesAreRefusedWithKeyAndValue) {
@@ -131,8 +114,8 @@ TEST_F(ToolDescriptionTest, BadFilesAreRefusedWithKeyAndValue) {
   for (const auto& bad : cases) {
     SCOPED_TRACE(bad.text);
     const std::string message = refusal(bad.text);
-    EXPECT_NE(message.find("tool.yaml:"), std::string::npos) << message;
-    for (const std::string& word : bad.words) EXPECT_NE(message.find(word), std::string::npos) << message;
+    EXPECT_TRUE(says(message, "tool.yaml:"));
+    for (const std::string& word : bad.words) EXPECT_TRUE(says(message, word));
   }
   EXPECT_THROW(loadToolDescription("/nowhere/tool.yaml"), std::invalid_argument);
 }

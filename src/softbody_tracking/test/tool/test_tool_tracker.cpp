@@ -1,4 +1,4 @@
-#include <gtest/gtest.h>
+#include <test_support/gtest.h>
 
 #include <Eigen/Cholesky>
 
@@ -126,7 +126,7 @@ TEST(ToolTracker, OtherMarkersAreNoTool) {
   other.markers[0].id = 8;
   ToolTracker tracker(oneMarker());
   EXPECT_FALSE(tracker.track(renderTool(other, facing({0, 0, 0.5}), 0, 1), nullptr));
-  EXPECT_NE(tracker.reason().find("no marker"), std::string::npos);
+  EXPECT_TRUE(says(tracker.reason(), "no marker"));
 }
 
 /// A tool that moves by 0.3 m/s while it turns by 60 degrees a second.
@@ -263,7 +263,7 @@ TEST(ToolTracker, AToolWithAFrameIsWhereTheFrameIs) {
   knife.frame = "knife_link";
   ToolTracker tracker(knife);
   EXPECT_FALSE(tracker.follow(0, std::nullopt));
-  EXPECT_NE(tracker.reason().find("'knife_link'"), std::string::npos) << tracker.reason();
+  EXPECT_TRUE(says(tracker.reason(), "'knife_link'"));
   const Eigen::Isometry3d place = Eigen::Translation3d(0.1, 0.0, 0.5) * Eigen::Isometry3d::Identity();
   const std::optional<ToolObservation> seen = tracker.follow(kFrame, place);
   ASSERT_TRUE(seen);
