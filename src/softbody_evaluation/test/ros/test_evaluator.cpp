@@ -1,28 +1,25 @@
 #include "softbody_evaluation/ros/evaluator.h"
 
 #include <fmt/format.h>
-#include <gtest/gtest.h>
 #include <softbody_msgs/StageTiming.h>
 #include <softbody_msgs/TrackingStatus.h>
+#include <test_support/gtest.h>
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
 
 #include "fixtures/evaluator_bags.h"
 #include "report/report_json.h"
 #include "report/report_text.h"
+#include "softbody_common/files/input_file.h"
 
 namespace softbody::evaluation {
 namespace {
 
 TEST(Evaluator, ThePerfectResultHasNoErrorButTheMillimetreGrid) {
-  EvaluatorOptions options;
-  options.result = resultFromTruth("perfect.bag", asItIs);
-  options.truth = recording();
+  EvaluatorOptions options = optionsOf(resultFromTruth("perfect.bag", asItIs));
   const Report report = evaluate(options);
   EXPECT_EQ(report.frames.answered, static_cast<std::size_t>(kFrames));
   EXPECT_EQ(report.vertex_error->all.max, 0.0);
@@ -36,10 +33,7 @@ TEST(Evaluator, ThePerfectResultHasNoErrorButTheMillimetreGrid) {
 }
 
 TEST(Evaluator, AKnownDisplacementIsTheErrorAndTheFolderHoldsTheReport) {
-  EvaluatorOptions options;
-  options.result =
-      resultFromTruth("shifted.bag", [](softbody_msgs::MeshState* s, int) { return shift(s, 0.002f); });
-  options.truth = recording();
+  EvaluatorOptions options = optionsOf(shifted("shifted.bag", 0.002f));
   options.report_folder = testing::TempDir() + "evaluator_report";
   const Report report = evaluate(options);
   EXPECT_NEAR(report.vertex_error->all.mean, 0.002, 1e-7);
@@ -53,8 +47,7 @@ TEST(Evaluator, AKnownDisplacementIsTheErrorAndTheFolderHoldsTheReport) {
 }
 
 std::string pageOf(const EvaluatorOptions& options) {
-  std::ifstream file(options.report_folder + "/report.html");
-  return {std::istreambuf_iterator<char>(file), {}};
+  return readFile(options.report_folder + "/report.html");
 }
 
 TEST(Evaluator, TheVerdictOfAResultBesideTheBodyIsWrongWithAndWithoutTruth) {
@@ -64,13 +57,12 @@ TEST(Evaluator, TheVerdictOfAResultBesideTheBodyIsWrongWithAndWithoutTruth) {
     options.report_folder = testing::TempDir() + "evaluator_verdict";
     options.result = resultFromTruth("right.bag", asItIs);
     EXPECT_EQ(toJson(evaluate(options))["verdict"]["level"], "good") << with_truth;
-    EXPECT_NE(pageOf(options).find("<section class=good>"), std::string::npos) << with_truth;
-    options.result =
-        resultFromTruth("beside.bag", [](softbody_msgs::MeshState* s, int) { return shift(s, 0.15f); });
+    EXPECT_TRUE(says(pageOf(options), "<section class=good>")) << with_truth;
+    options.result = shifted("beside.bag", 0.15f);
     EXPECT_EQ(toJson(evaluate(options))["verdict"]["level"], "wrong") << with_truth;
     const std::string page = pageOf(options);
-    EXPECT_NE(page.find("<section class=wrong>"), std::string::npos) << with_truth;
-    EXPECT_NE(page.find("alt=\"error from four sides\" src=\"data:image/jpeg"), std::string::npos);
+    EXPECT_TRUE(says(page, "<section class=wrong>")) << with_truth;
+    EXPECT_TRUE(says(page, "alt=\"error from four sides\" src=\"data:image/jpeg"));
   }
 }
 
@@ -98,40 +90,37 @@ TEST(Evaluator, StatesWithAnOddStampAreLeftOutAlsoIfItRepeats) {
     const Report report = evaluate(options);
     EXPECT_EQ(report.frames.answered, static_cast<std::size_t>(kFrames - states));
     ASSERT_EQ(report.notes.size(), 1u);
-    EXPECT_NE(report.notes[0].find("alone there"), std::string::npos) << report.notes[0];
-    EXPECT_NE(report.notes[0].find(fmt::format("{} of {} states", states, kFrames)), std::string::npos)
-        << report.notes[0];
+    EXPECT_TRUE(says(report.notes[0], "alone there"));
+    EXPECT_TRUE(says(report.notes[0], fmt::format("{} of {} states", states, kFrames)));
   }
 }
 
 TEST(Evaluator, StatesThatAreNoAnswersAreCountedAndSaid) {
-  EvaluatorOptions options;
-  options.truth = recording();
-  options.result = resultFromTruth("broken.bag", [](softbody_msgs::MeshState* s, int frame) {
-    if (frame == 3) s->vertices.at(7).y = std::numeric_limits<float>::quiet_NaN();
-    if (frame == 5) s->revision = 9;
-    if (frame == 6) s->vertices.pop_back();
-    if (frame == 7) s->confidence.clear();
-    return true;
-  });
+  EvaluatorOptions options =
+      optionsOf(resultFromTruth("broken.bag", [](softbody_msgs::MeshState* s, int frame) {
+        if (frame == 3) s->vertices.at(7).y = std::numeric_limits<float>::quiet_NaN();
+        if (frame == 5) s->revision = 9;
+        if (frame == 6) s->vertices.pop_back();
+        if (frame == 7) s->confidence.clear();
+        return true;
+      }));
   const Report report = evaluate(options);
   EXPECT_EQ(report.frames.answered, static_cast<std::size_t>(kFrames - 4));
   EXPECT_EQ(report.vertex_error->all.max, 0.0);
   ASSERT_EQ(report.notes.size(), 1u);
-  EXPECT_NE(report.notes[0].find("4 of 20 states"), std::string::npos) << report.notes[0];
-  EXPECT_NE(report.notes[0].find("vertices[7]"), std::string::npos) << report.notes[0];
+  EXPECT_TRUE(says(report.notes[0], "4 of 20 states"));
+  EXPECT_TRUE(says(report.notes[0], "vertices[7]"));
 
   options.result = resultFromTruth("mixed.bag", [](softbody_msgs::MeshState* s, int frame) {
     if (frame > 10) s->header.frame_id = "world";
     return true;
   });
-  EXPECT_NE(failure(options).find("'camera_color_optical_frame' and 'world'"), std::string::npos);
+  EXPECT_TRUE(says(failure(options), "'camera_color_optical_frame' and 'world'"));
 }
 
 TEST(Evaluator, SilhouettesStageTimesAndThePageAreThere) {
   EvaluatorOptions options;
-  options.result =
-      resultFromTruth("timed.bag", [](softbody_msgs::MeshState* s, int) { return shift(s, 0.001f); });
+  options.result = shifted("timed.bag", 0.001f);
   {
     rosbag::Bag bag(options.result, rosbag::bagmode::Append);
     softbody_msgs::StageTiming timing;
@@ -167,9 +156,7 @@ TEST(Evaluator, SilhouettesStageTimesAndThePageAreThere) {
 }
 
 TEST(Evaluator, AStatusWithoutANewImageIsNoFrame) {
-  EvaluatorOptions options;
-  options.result = resultFromTruth("live.bag", asItIs);
-  options.truth = recording();
+  EvaluatorOptions options = optionsOf(resultFromTruth("live.bag", asItIs));
   {
     rosbag::Bag bag(options.result, rosbag::bagmode::Append);
     softbody_msgs::TrackingStatus status;  // before the first image: without a stamp
@@ -186,10 +173,8 @@ TEST(Evaluator, AStatusWithoutANewImageIsNoFrame) {
 
 TEST(Evaluator, TwoResultsSideBySide) {
   EvaluatorOptions options;
-  options.result =
-      resultFromTruth("first_of_two.bag", [](softbody_msgs::MeshState* s, int) { return shift(s, 0.001f); });
-  const std::string other =
-      resultFromTruth("second_of_two.bag", [](softbody_msgs::MeshState* s, int) { return shift(s, 0.004f); });
+  options.result = shifted("first_of_two.bag", 0.001f);
+  const std::string other = shifted("second_of_two.bag", 0.004f);
   options.truth = recording();
   options.report_folder = testing::TempDir() + "evaluator_two";
   const Comparison comparison = evaluateBoth(options, other);
@@ -220,26 +205,26 @@ TEST(Evaluator, ARecordingNeedsNoCameraInfoOfDepth) {
 TEST(Evaluator, WhatDoesNotFitIsSaidInASentence) {
   EvaluatorOptions options;
   options.result = recording();
-  EXPECT_NE(failure(options).find("there is no message on /softbody/surface/topology"), std::string::npos);
+  EXPECT_TRUE(says(failure(options), "there is no message on /softbody/surface/topology"));
 
   options.result = resultFromTruth("late.bag", [](softbody_msgs::MeshState* s, int) {
     s->header.stamp += ros::Duration(0.001);
     return true;
   });
   options.truth = recording();
-  EXPECT_NE(failure(options).find("no surface has the stamp"), std::string::npos);
+  EXPECT_TRUE(says(failure(options), "no surface has the stamp"));
 
   options.result = resultFromTruth("world.bag", [](softbody_msgs::MeshState* s, int) {
     s->header.frame_id = "world";
     return true;
   });
-  EXPECT_NE(failure(options).find("'world'"), std::string::npos);
+  EXPECT_TRUE(says(failure(options), "'world'"));
 
   options.result = resultFromTruth("revision.bag", [](softbody_msgs::MeshState* s, int) {
     s->revision = 3;
     return true;
   });
-  EXPECT_NE(failure(options).find("revision 3"), std::string::npos);
+  EXPECT_TRUE(says(failure(options), "revision 3"));
 }
 
 }  // namespace

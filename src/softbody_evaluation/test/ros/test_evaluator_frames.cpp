@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
-#include <gtest/gtest.h>
+#include <test_support/gtest.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include <Eigen/Core>
@@ -33,8 +33,8 @@ TEST(Evaluator, AResultInAnotherFrameIsBroughtBackByTf) {
   });
   options.truth = recording();
   const std::string way = "static_transform_publisher 0 0 0 0 0 0 world camera_color_optical_frame";
-  EXPECT_NE(failure(options).find(way), std::string::npos) << failure(options);
-  EXPECT_EQ(failure(options).find(".."), std::string::npos) << failure(options);
+  EXPECT_TRUE(says(failure(options), way));
+  EXPECT_FALSE(says(failure(options), ".."));
   {
     rosbag::Bag bag(options.result, rosbag::bagmode::Append);
     tf2_msgs::TFMessage message;
@@ -135,7 +135,7 @@ TEST(Evaluator, PosesOfTheToolThatTfDoesNotPlaceAreSaid) {
   const Report report = evaluate(options);
   EXPECT_EQ(report.tool->answered, 0u);
   ASSERT_EQ(report.notes.size(), 1u);
-  EXPECT_NE(report.notes[0].find("1 of 1 poses of the tool"), std::string::npos) << report.notes[0];
+  EXPECT_TRUE(says(report.notes[0], "1 of 1 poses of the tool"));
 }
 
 }  // namespace

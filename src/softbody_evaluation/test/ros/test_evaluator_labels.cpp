@@ -1,5 +1,5 @@
-#include <gtest/gtest.h>
 #include <sensor_msgs/Image.h>
+#include <test_support/gtest.h>
 
 #include <nlohmann/json.hpp>
 
@@ -15,10 +15,7 @@ std::string labelledRecording() {
   virtual_camera::CameraSetup setup = smallSetup();
   setup.scene = "touch";
   setup.texture = "plain";
-  virtual_camera::VirtualCamera camera = makeCamera(setup);
-  const std::string file = testing::TempDir() + "evaluator_labelled.bag";
-  writeBag(&camera, {file, kFrames, 4.0, true}, [](int) {});
-  return file;
+  return recordingOf(setup, "evaluator_labelled.bag", kFrames, 4.0, true);
 }
 
 /// The true surface as a result, with the true labels after a change; every second frame has some.
@@ -53,8 +50,7 @@ TEST(Evaluator, ComparesLabelsWithTheTrueOnes) {
   EXPECT_EQ(labels["background"], 1.0);
   EXPECT_EQ(labels["occluder"], 0.0);
   EXPECT_LT(labels["right"], 1.0);
-  EXPECT_NE(toText(body_only).find(", occluder 0.00 %, body 100.00 %; 10 frames"), std::string::npos)
-      << toText(body_only);
+  EXPECT_TRUE(says(toText(body_only), ", occluder 0.00 %, body 100.00 %; 10 frames"));
 }
 
 TEST(Evaluator, HasNoLabelsWithoutThoseOfBothBags) {
@@ -73,14 +69,12 @@ TEST(Evaluator, RefusesLabelsOfAnotherEncodingOrSize) {
   options.truth = labelledRecording();
   options.result = resultWithLabels("other.bag", options.truth,
                                     [](sensor_msgs::Image* image) { image->encoding = "8UC1"; });
-  EXPECT_NE(failure(options).find("/softbody/labels are 8UC1 instead of mono8"), std::string::npos)
-      << failure(options);
+  EXPECT_TRUE(says(failure(options), "/softbody/labels are 8UC1 instead of mono8"));
   options.result = resultWithLabels("small.bag", options.truth, [](sensor_msgs::Image* image) {
     image->height /= 2;
     image->data.resize(image->data.size() / 2);
   });
-  EXPECT_NE(failure(options).find("/softbody/labels: label images of 160x120 and 160x60"), std::string::npos)
-      << failure(options);
+  EXPECT_TRUE(says(failure(options), "/softbody/labels: label images of 160x120 and 160x60"));
 }
 
 }  // namespace

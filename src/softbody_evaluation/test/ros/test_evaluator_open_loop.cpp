@@ -32,7 +32,7 @@ TEST(OpenLoop, PredictedFramesAreMeasuredAlone) {
   EXPECT_EQ(report.frames.expected, static_cast<std::size_t>(kTracked));
   EXPECT_EQ(report.frames.answered, static_cast<std::size_t>(kTracked));
   EXPECT_EQ(report.frames.recorded, static_cast<std::size_t>(kTracked));
-  EXPECT_NE(toText(report).find("open loop: 4 frames, 1.00 s without images"), std::string::npos);
+  EXPECT_TRUE(says(toText(report), "open loop: 4 frames, 1.00 s without images"));
   const std::vector<Metric> all = metrics(report);
   const auto metric =
       std::find_if(all.begin(), all.end(), [](const Metric& one) { return one.name == "open loop, mean"; });
@@ -45,15 +45,14 @@ TEST(OpenLoop, AResultThatUsedItsImagesIsRefused) {
   options.result = resultFromTruth("closed_loop.bag", asItIs);
   options.truth = recording();
   options.open_loop = 0.2;
-  EXPECT_NE(failure(options).find("replay --open-loop 0.2"), std::string::npos) << failure(options);
+  EXPECT_TRUE(says(failure(options), "replay --open-loop 0.2"));
   options.result = predicted("open_loop.bag");
   options.open_loop = 0.5;
-  EXPECT_NE(failure(options).find("4 states at its end are predicted"), std::string::npos)
-      << failure(options);
+  EXPECT_TRUE(says(failure(options), "4 states at its end are predicted"));
   options.open_loop = 0.2;
   options.truth.clear();
   options.recording = recording();
-  EXPECT_NE(failure(options).find("add --truth"), std::string::npos) << failure(options);
+  EXPECT_TRUE(says(failure(options), "add --truth"));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include <gtest/gtest.h>
+#include <test_support/gtest.h>
 
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -88,13 +88,6 @@ std::string otherMesh(const std::string& name, const Eigen::RowVector3d& shift, 
   return path;
 }
 
-EvaluatorOptions optionsOf(const std::string& result) {
-  EvaluatorOptions options;
-  options.result = result;
-  options.truth = recording();
-  return options;
-}
-
 TEST(EvaluatorOtherMesh, TheSameSurfaceHasNoErrorAndANoteSaysThatTheMeshIsAnother) {
   const Report report = evaluate(optionsOf(otherMesh("other_mesh.bag", {0.0, 0.0, 0.0})));
   EXPECT_LT(report.vertex_error->all.max, 1e-4);
@@ -102,9 +95,7 @@ TEST(EvaluatorOtherMesh, TheSameSurfaceHasNoErrorAndANoteSaysThatTheMeshIsAnothe
   EXPECT_GT(report.vertex_error->hidden.count, 0u);
   EXPECT_LT(report.surface_distance->all.max, 1e-6);
   ASSERT_EQ(report.notes.size(), 1u);
-  EXPECT_NE(report.notes[0].find("not that of the truth: at rest, their surfaces are 0.000 mm apart"),
-            std::string::npos)
-      << report.notes[0];
+  EXPECT_TRUE(says(report.notes[0], "not that of the truth: at rest, their surfaces are 0.000 mm apart"));
 }
 
 TEST(EvaluatorOtherMesh, AKnownShiftIsTheErrorAlsoWhereItSlides) {
@@ -123,8 +114,8 @@ TEST(EvaluatorOtherMesh, AKnownShiftIsTheErrorAlsoWhereItSlides) {
 }
 
 TEST(EvaluatorOtherMesh, AMeshOfAnotherSizeIsRefused) {
-  EXPECT_NE(failure(optionsOf(otherMesh("other_size.bag", {0.0, 0.0, 0.0}, 4.0))).find("not the same body"),
-            std::string::npos);
+  EXPECT_TRUE(
+      says(failure(optionsOf(otherMesh("other_size.bag", {0.0, 0.0, 0.0}, 4.0))), "not the same body"));
 }
 
 }  // namespace

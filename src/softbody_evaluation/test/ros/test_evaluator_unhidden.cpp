@@ -1,4 +1,4 @@
-#include <gtest/gtest.h>
+#include <test_support/gtest.h>
 
 #include <utility>
 
@@ -12,10 +12,7 @@ namespace {
 std::string occludedRecording() {
   virtual_camera::CameraSetup setup = smallSetup();
   setup.scene = "occlude";
-  virtual_camera::VirtualCamera camera = makeCamera(setup);
-  const std::string file = testing::TempDir() + "evaluator_occluded.bag";
-  writeBag(&camera, {file, 5 * kFrames, 20.0}, [](int) {});
-  return file;
+  return recordingOf(setup, "evaluator_occluded.bag", 5 * kFrames, 20.0);
 }
 
 TEST(Evaluator, BackToNormalIsJudgedByTheUnhiddenResult) {
@@ -31,9 +28,7 @@ TEST(Evaluator, BackToNormalIsJudgedByTheUnhiddenResult) {
   EXPECT_EQ(evaluate(options).absences[0].recovery_s, 0.0);
   EXPECT_NEAR(evaluate(options).absences[0].normal, 0.0026, 1e-6);
   const std::string words = toText(evaluate(options));
-  EXPECT_NE(words.find("back to normal (2.600 mm) after 0.00 s; not back to the error before"),
-            std::string::npos)
-      << words;
+  EXPECT_TRUE(says(words, "back to normal (2.600 mm) after 0.00 s; not back to the error before"));
   EXPECT_TRUE(evaluate(options).notes.empty());
   options.unhidden = resultFromTruth("unhidden.bag", off(0.0024f), options.truth);
   EXPECT_FALSE(evaluate(options).absences[0].recovery_s);
@@ -41,33 +36,26 @@ TEST(Evaluator, BackToNormalIsJudgedByTheUnhiddenResult) {
       "gaps.bag", [](softbody_msgs::MeshState*, int frame) { return frame % 10 != 0; }, options.truth);
   const Report with_gaps = evaluate(options);
   ASSERT_EQ(with_gaps.notes.size(), 1u);
-  EXPECT_NE(with_gaps.notes[0].find("gaps.bag has no state for 10 of 100 frames"), std::string::npos);
+  EXPECT_TRUE(says(with_gaps.notes[0], "gaps.bag has no state for 10 of 100 frames"));
 }
 
 TEST(Evaluator, OtherFramesOfAnUnhiddenResultAndOtherBodiesAreRefused) {
-  EvaluatorOptions options;
-  options.truth = recording();
-  options.result = resultFromTruth("seen.bag", asItIs);
+  EvaluatorOptions options = optionsOf(resultFromTruth("seen.bag", asItIs));
   options.unhidden = resultFromTruth("other_frames.bag", [](softbody_msgs::MeshState* s, int) {
     s->header.stamp += ros::Duration(0.001);
     return true;
   });
-  EXPECT_NE(failure(options).find("other_frames.bag: the unhidden body has no state with the stamp"),
-            std::string::npos);
+  EXPECT_TRUE(says(failure(options), "other_frames.bag: the unhidden body has no state with the stamp"));
   virtual_camera::CameraSetup setup;
   setup.scene = "doll_still";
   setup.config_folder = CONFIG_DIR;
   setup.width = 160;
   setup.height = 120;
-  virtual_camera::VirtualCamera camera = makeCamera(setup);
-  const std::string doll = testing::TempDir() + "evaluator_doll.bag";
-  writeBag(&camera, {doll, 2, 4.0}, [](int) {});
+  const std::string doll = recordingOf(setup, "evaluator_doll.bag", 2);
   options.unhidden = resultFromTruth("other_mesh.bag", asItIs, doll);
-  EXPECT_NE(failure(options).find("other_mesh.bag: its mesh is not of the body of the truth"),
-            std::string::npos);
+  EXPECT_TRUE(says(failure(options), "other_mesh.bag: its mesh is not of the body of the truth"));
   options.result = std::exchange(options.unhidden, "");
-  EXPECT_NE(failure(options).find("other_mesh.bag: its mesh is not of the body of the truth"),
-            std::string::npos);
+  EXPECT_TRUE(says(failure(options), "other_mesh.bag: its mesh is not of the body of the truth"));
 }
 
 }  // namespace

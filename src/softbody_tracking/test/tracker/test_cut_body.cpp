@@ -1,4 +1,4 @@
-#include <gtest/gtest.h>
+#include <test_support/gtest.h>
 
 #include "fixtures/tracked_box.h"
 #include "tracker/backoff.h"
@@ -45,8 +45,7 @@ TEST(CutBody, HoldsAPieceThatDoesNotShowUntilItDoes) {
     result = tracked.show(rest, [&](RgbdFrame* frame) { frame->depth(right).setTo(0.3f); });
   }
   EXPECT_EQ(result.status.state, TrackingState::kDegraded);
-  EXPECT_NE(result.status.reason.find("almost hidden, at the last pose: piece 1 of 2"), std::string::npos)
-      << result.status.reason;
+  EXPECT_TRUE(says(result.status.reason, "almost hidden, at the last pose: piece 1 of 2"));
   int held = 0;
   for (const Target& target : result.targets.targets) {
     if (target.kind != TargetKind::kPrior) continue;

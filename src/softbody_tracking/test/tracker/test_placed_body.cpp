@@ -1,4 +1,4 @@
-#include <gtest/gtest.h>
+#include <test_support/gtest.h>
 
 #include <random>
 
@@ -94,7 +94,7 @@ TEST(PlacedBody, AMeshOfTheWrongSizeIsReported) {
     box.placeAt(boxPose());
     const TrackingStatus status = box.showForASecond().status;
     EXPECT_NE(status.state, TrackingState::kTracking);
-    EXPECT_NE(status.reason.find(words), std::string::npos) << status.reason;
+    EXPECT_TRUE(says(status.reason, words));
   }
 }
 

@@ -1,6 +1,6 @@
 #include "tracker/tracking_status.h"
 
-#include <gtest/gtest.h>
+#include <test_support/gtest.h>
 
 namespace softbody {
 namespace {
@@ -31,9 +31,9 @@ TEST(StatusOf, NamesWhatDisagreesBeyondTheTolerance) {
         std::pair(Disagreement::Kind::kBeyond, "23 mm beyond the left side of its prediction")}) {
     const TrackingStatus status = statusWith(wellSeen(), {kind, 0.023, "left"});
     EXPECT_EQ(status.state, TrackingState::kDegraded);
-    EXPECT_NE(status.reason.find(words), std::string::npos) << status.reason;
-    EXPECT_NE(status.reason.find("check mesh, scale and pose"), std::string::npos)
-        << "the outline says nothing of the size: " << status.reason;
+    EXPECT_TRUE(says(status.reason, words));
+    EXPECT_TRUE(says(status.reason, "check mesh, scale and pose"))
+        << "the outline says nothing of the size: ";
     const TrackingStatus tracked = statusWith(wellSeen(), {kind, 0.9 * kTolerance, "left"});
     EXPECT_EQ(tracked.state, TrackingState::kTracking);
     EXPECT_EQ(tracked.reason, "");
@@ -45,10 +45,10 @@ TEST(StatusOf, AnOutlineSmallerAllAroundNamesTheScale) {
   Observation seen = wellSeen();
   seen.outline.disagreement = 0.3;
   seen.outline.excess = -0.28;
-  EXPECT_NE(statusWith(seen, wide, 0.77).reason.find("a body about 23 % smaller"), std::string::npos);
-  EXPECT_EQ(statusWith(seen, wide, 0.998).reason.find("smaller"), std::string::npos);
+  EXPECT_TRUE(says(statusWith(seen, wide, 0.77).reason, "a body about 23 % smaller"));
+  EXPECT_FALSE(says(statusWith(seen, wide, 0.998).reason, "smaller"));
   seen.outline.excess = 0.05;
-  EXPECT_NE(statusWith(seen, wide, 0.77).reason.find("check mesh, scale and pose"), std::string::npos);
+  EXPECT_TRUE(says(statusWith(seen, wide, 0.77).reason, "check mesh, scale and pose"));
 }
 
 /// A mesh that was bent to the shape of another body agrees with the image, but its state is not certain.
@@ -56,7 +56,7 @@ TEST(StatusOf, AnUncertainStateIsNotTracked) {
   const auto status = [](double bound_m) { return statusOf(wellSeen(), {}, {{}, bound_m}, kTolerance); };
   EXPECT_EQ(status(0.9 * kTolerance).state, TrackingState::kTracking);
   EXPECT_EQ(status(0.012).state, TrackingState::kDegraded);
-  EXPECT_NE(status(0.012).reason.find("may be 12 mm off"), std::string::npos) << status(0.012).reason;
+  EXPECT_TRUE(says(status(0.012).reason, "may be 12 mm off"));
 }
 
 /// What is hidden, and features that are not found, say nothing against the rest.
@@ -90,7 +90,7 @@ TEST(StatusOf, IsLostWhereNothingAgrees) {
   seen.agreeing_blocks = 3;
   EXPECT_EQ(statusWith(seen).state, TrackingState::kLost);
   seen.depth.visible_blocks = 0;
-  EXPECT_NE(statusWith(seen).reason.find("out of view"), std::string::npos);
+  EXPECT_TRUE(says(statusWith(seen).reason, "out of view"));
 }
 
 constexpr Nanoseconds kFrameInterval = 33'333'333;
@@ -122,16 +122,15 @@ TEST(HeldPieces, DegradeTheTrackingIfInView) {
       << "yet";
   const TrackingStatus status = statusAfter({kAlmostHidden, kWell, kWell}, {true, true, true}, 20);
   EXPECT_EQ(status.state, TrackingState::kDegraded);
-  EXPECT_NE(status.reason.find("piece 2 of 4"), std::string::npos) << status.reason;
-  EXPECT_NE(statusAfter({kAlmostHidden, kAlmostHidden, kWell}, {true, true, true}, 20)
-                .reason.find("pieces 0, 2, 3 of 4"),
-            std::string::npos);
+  EXPECT_TRUE(says(status.reason, "piece 2 of 4"));
+  EXPECT_TRUE(says(statusAfter({kAlmostHidden, kAlmostHidden, kWell}, {true, true, true}, 20).reason,
+                   "pieces 0, 2, 3 of 4"));
 }
 
 TEST(HeldPieces, AreOnlyInferredIfOutOfView) {
   const TrackingStatus status = statusAfter({kWell, kWell, kAlmostHidden}, {true, true, false}, 20);
   EXPECT_EQ(status.state, TrackingState::kTracking);
-  EXPECT_NE(status.reason.find("piece 1 of 4"), std::string::npos) << status.reason;
+  EXPECT_TRUE(says(status.reason, "piece 1 of 4"));
   EXPECT_EQ(statusAfter({kAlmostHidden, kWell, kAlmostHidden}, {true, true, false}, 20).state,
             TrackingState::kDegraded)
       << "another piece is in view";
