@@ -6,7 +6,7 @@
 #include "cutting/binding/surface_rebinding.h"
 #include "cutting/fixtures/surface_meshes.h"
 #include "cutting/volume/tet_cutter.h"
-#include "softbody_sim/cutting/binding/cuttable_surface.h"
+#include "softbody_sim/cutting/binding/cuttable_body.h"
 #include "softbody_sim/dynamics/simulator.h"
 #include "softbody_sim/object/object_model.h"
 
@@ -98,7 +98,7 @@ class BodyUnderBlade {
   explicit BodyUnderBlade(const ObjectModel& model)
       : rest_(model.visual.rest_vertices),
         simulator_(model.volume, model.material, {}),
-        surface_(model.visual, model.volume) {
+        surface_(model.visual, model.volume, {}, [this](const TetEdits& edits) { simulator_.apply(edits); }) {
     TargetSet targets;
     targets.reset = true;
     simulator_.step(targets, 0);
@@ -106,17 +106,18 @@ class BodyUnderBlade {
 
   /// Undoes all cuts and moves the blade 5 mm above the body.
   void lift() {
-    edit(surface_.edit(CutKind::kReset));
-    surface_.lift();
-    if (surface_.follow(bladeAt(-0.005), simulator_.state(), 0)) throw std::runtime_error("cut from above");
+    std::string reason;
+    surface_.apply(surface_.edit(CutKind::kReset), simulator_.state(), &reason);
+    stamp_ += 1'000'000'000;
+    if (surface_.follow(bladeAt(-0.005), simulator_.state(), stamp_))
+      throw std::runtime_error("cut from above");
   }
 
   /// Cuts with a new blade pose. @return state of the cut visual mesh.
   MeshState moveTo(double share_of_height) {
     const double depth = share_of_height * (rest_.col(2).maxCoeff() - rest_.col(2).minCoeff());
-    const auto cut = surface_.follow(bladeAt(depth), simulator_.state(), 0);
+    const auto cut = surface_.follow(bladeAt(depth), simulator_.state(), stamp_);
     if (!cut) throw std::runtime_error("the blade does not cut");
-    applyToSimulator(*cut);
     return surface_.surface().apply(simulator_.state());
   }
 
@@ -131,19 +132,11 @@ class BodyUnderBlade {
     blade.row(3) = blade.row(0) + Eigen::RowVector3d(0.0, 0.0, kBladeHeight);
     return blade;
   }
-  void edit(const Cut& cut) {
-    std::string reason;
-    if (surface_.apply(cut, simulator_.state(), &reason)) applyToSimulator(cut);
-  }
-  void applyToSimulator(const Cut& cut) {
-    std::string reason;
-    if (!simulator_.apply(cut, &reason)) throw std::runtime_error(reason);
-    surface_.confirm(cut.revision);
-  }
 
   Points rest_;
   Simulator simulator_;
-  CuttableSurface surface_;
+  CuttableBody surface_;
+  Nanoseconds stamp_ = 0;
 };
 
 /// A frame in which the blade moves from one depth to another, as fractions of the body's height.

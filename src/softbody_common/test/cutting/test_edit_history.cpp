@@ -75,37 +75,34 @@ TEST(EditHistory, AStrokeGrowsUntilAnotherEdit) {
   EXPECT_EQ(history.revision, 5u);
 }
 
-/// From any history to any other, also where one continues the other.
-TEST(EditHistory, EditsLeadFromOneHistoryToAnother) {
-  std::mt19937 random(18);
-  for (int round = 0; round < 2000; ++round) {
-    const EditHistory shared = randomHistory({}, round % 7, &random);
-    const EditHistory from = randomHistory(shared, round % 5, &random);
-    const EditHistory to = randomHistory(shared, round % 11, &random);
-    EditHistory at = from;
-    for (const Cut& next : editsBetween(from, to)) {
-      ASSERT_EQ(refusalOf(next, at), "") << round;
-      addEdit(next, &at);
-    }
-    EditHistory in_force = to;
-    in_force.strokes.resize(to.in_force);
-    at.strokes.resize(at.in_force);
-    at.is_open = at.is_open && to.is_open;  // an open stroke can be closed without an edit
-    EXPECT_TRUE(sameEdits(at, in_force)) << round;
-  }
-}
-
-TEST(EditHistory, OneEditFurtherNeedsOneEdit) {
+TEST(EditHistory, TheNextEditIsFoundAndNoneIfThereAreMore) {
   std::mt19937 random(19);
+  int further = 0;
   for (int round = 0; round < 500; ++round) {
     const EditHistory from = randomHistory({}, round % 9, &random);
-    const Cut next = randomEdit(from, &random);
-    EditHistory to = from;
-    addEdit(next, &to);
-    const std::vector<Cut> edits = editsBetween(from, to);
-    ASSERT_EQ(edits.size(), 1u) << round;
-    EXPECT_EQ(edits[0].revision, next.revision);
+    const EditHistory to = randomHistory(from, 1, &random);
+    const std::optional<Cut> next = nextEdit(from, to);
+    ASSERT_TRUE(next.has_value()) << round;
+    EditHistory made = from;
+    addEdit(*next, &made);
+    EXPECT_TRUE(sameEdits(made, to)) << round;
+    EXPECT_EQ(made.revision, to.revision);
+    further += nextEdit(from, randomHistory(to, 2, &random)) ? 1 : 0;
+    EXPECT_FALSE(nextEdit(from, from)) << round;
   }
+  EXPECT_EQ(further, 0);
+}
+
+TEST(EditHistory, CommonStrokesAreTheFirstThatAreTheSame) {
+  EditHistory one;
+  for (std::uint32_t stroke = 1; stroke < 4; ++stroke) addEdit(cutAt(one, stroke, 0.1 * stroke), &one);
+  EditHistory other = one;
+  addEdit(edit(other, CutKind::kReset), &other);
+  EXPECT_EQ(commonStrokes(one, other), 3u);
+  addEdit(edit(other, CutKind::kRedo), &other);
+  addEdit(cutAt(other, 2, 0.7), &other);
+  EXPECT_EQ(commonStrokes(one, other), 1u);
+  EXPECT_EQ(commonStrokes({}, other), 0u);
 }
 
 /// However often revisions leap, each leap that is accepted leaves room for the edits that follow.

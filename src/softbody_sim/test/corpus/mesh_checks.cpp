@@ -9,7 +9,7 @@
 
 #include "report/model_trial.h"
 #include "softbody_common/geometry/tet_geometry.h"
-#include "softbody_sim/cutting/binding/cuttable_surface.h"
+#include "softbody_sim/cutting/binding/cuttable_body.h"
 #include "softbody_sim/cutting/patch/cut_shapes.h"
 #include "softbody_sim/io/surface_files.h"
 
@@ -20,7 +20,7 @@ constexpr double kMostSeconds = 10.0, kMostVolumeError = 0.05, kMostCutError = 1
 
 /// @return what is wrong with a plane's cut, or nothing.
 std::string cutFault(const ObjectModel& model, unsigned seed) {
-  const CuttableSurface surface(model.visual, model.volume);
+  const CuttableBody surface(model.visual, model.volume);
   const Points& rest = model.visual.rest_vertices;
   const double whole = enclosedVolume(rest, model.visual.triangles);
   std::mt19937 random(seed);

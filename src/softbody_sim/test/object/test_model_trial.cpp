@@ -8,7 +8,7 @@
 #include "fixtures/object_model_test.h"
 #include "report/model_trial.h"
 #include "report/model_verdict.h"
-#include "softbody_sim/cutting/binding/cuttable_surface.h"
+#include "softbody_sim/cutting/binding/cuttable_body.h"
 #include "softbody_sim/cutting/patch/cut_shapes.h"
 
 namespace softbody {
@@ -33,7 +33,7 @@ TEST_F(ObjectModelTest, AGoodModelIsCutAndComesToRest) {
 TEST_F(ObjectModelTest, ACutThroughACavityClosesAsARing) {
   const ObjectModel model = buildObjectModel(
       describe(test::together({test::boxMesh({0.2, 0.1, 0.04}), test::boxMesh({0.16, 0.06, 0.02})})));
-  const CuttableSurface surface(model.visual, model.volume);
+  const CuttableBody surface(model.visual, model.volume);
   const MeshTopology pieces =
       surface.preview(planePatch({0.013, 0, 0}, Eigen::Vector3d::UnitX(), model.visual.rest_vertices)).pieces;
   std::vector<Eigen::Index> walls;

@@ -3,7 +3,7 @@
 #include <map>
 
 #include "cutting/fixtures/visual_sponge.h"
-#include "softbody_sim/cutting/binding/cuttable_surface.h"
+#include "softbody_sim/cutting/binding/cuttable_body.h"
 #include "softbody_sim/cutting/patch/cut_shapes.h"
 #include "softbody_sim/surface_mesh/cut_lines.h"
 
@@ -26,7 +26,7 @@ void expectClosed(const Edges& lines) {
 }
 
 MeshTopology cutBy(const TriangleMesh& patch) {
-  const CuttableSurface surface(visualSponge(), testing::sponge());
+  const CuttableBody surface(visualSponge(), testing::sponge());
   const CutPreview preview = surface.preview(patch);
   EXPECT_EQ(preview.refusal, "");
   return preview.pieces;

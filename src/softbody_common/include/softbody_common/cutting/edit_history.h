@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,8 +40,11 @@ std::string refusalOf(const EditHistory& theirs, const EditHistory& own);
 /// Adds a possible edit. A cut discards the undone strokes.
 void addEdit(const Cut& edit, EditHistory* history);
 
-/// The edits that lead from one history to the strokes in force of another. Strokes that both have are kept.
-std::vector<Cut> editsBetween(const EditHistory& from, const EditHistory& to);
+/// The edit that leads from one history to the next; nothing if more than one does.
+std::optional<Cut> nextEdit(const EditHistory& from, const EditHistory& to);
+
+/// Number of first strokes, in force or undone, that two histories share.
+std::size_t commonStrokes(const EditHistory& a, const EditHistory& b);
 
 /// Whether the same strokes are in force and undone. Body and revision may differ.
 bool sameEdits(const EditHistory& a, const EditHistory& b);

@@ -14,19 +14,9 @@ bool samePatch(const TriangleMesh& a, const TriangleMesh& b) {
          a.vertices == b.vertices && a.triangles == b.triangles;
 }
 
-/// Whether a stroke begins with all patches of another one.
-bool startsWith(const Stroke& stroke, const Stroke& start) {
-  return stroke.number == start.number && stroke.patches.size() >= start.patches.size() &&
-         std::equal(start.patches.begin(), start.patches.end(), stroke.patches.begin(), samePatch);
-}
-
 bool sameStroke(const Stroke& a, const Stroke& b) {
-  return a.patches.size() == b.patches.size() && startsWith(a, b);
-}
-
-/// Whether another patch could continue a stroke.
-bool isOpen(const EditHistory& history, std::size_t stroke) {
-  return history.is_open && stroke + 1 == history.in_force;
+  return a.number == b.number &&
+         std::equal(a.patches.begin(), a.patches.end(), b.patches.begin(), b.patches.end(), samePatch);
 }
 
 bool continuesStroke(const Cut& cut, const EditHistory& history) {
@@ -51,43 +41,6 @@ std::string refusalOfPatch(const Cut& cut, const EditHistory& history) {
   if (cuts > kMostCuts)
     return fmt::format("the body has {} cuts, which is the limit; undo some of them, or reset it", kMostCuts);
   return "";
-}
-
-/// Builds a list of edits, each for the next revision.
-class EditList {
- public:
-  explicit EditList(EditHistory from) : at_(std::move(from)) {}
-
-  const EditHistory& at() const { return at_; }
-  void add(CutKind kind) { add({at_.revision + 1, 0, kind, {}}); }
-  void addPatches(const Stroke& stroke, std::size_t first) {
-    for (std::size_t p = first; p < stroke.patches.size(); ++p)
-      add({at_.revision + 1, stroke.number, CutKind::kCut, stroke.patches[p]});
-  }
-  /// Makes the last stroke closed, as after an undo.
-  void close() {
-    add(CutKind::kUndo);
-    add(CutKind::kRedo);
-  }
-  std::vector<Cut> take() { return std::move(edits_); }
-
- private:
-  void add(Cut edit) {
-    addEdit(edit, &at_);
-    edits_.push_back(std::move(edit));
-  }
-  EditHistory at_;
-  std::vector<Cut> edits_;
-};
-
-/// Number of first strokes that need no edit. An open stroke cannot be made from a closed one.
-std::size_t commonStrokes(const EditHistory& from, const EditHistory& to) {
-  std::size_t common = 0;
-  while (common < std::min(from.in_force, to.in_force) &&
-         sameStroke(from.strokes[common], to.strokes[common]) &&
-         (isOpen(from, common) || !isOpen(to, common)))
-    ++common;
-  return common;
 }
 
 }  // namespace
@@ -133,28 +86,28 @@ void addEdit(const Cut& edit, EditHistory* history) {
   h.is_open = true;
 }
 
-std::vector<Cut> editsBetween(const EditHistory& from, const EditHistory& to) {
-  EditList edits(from);
-  std::size_t next = commonStrokes(from, to);
-  if (next < to.in_force && isOpen(from, next) && startsWith(to.strokes[next], from.strokes[next])) {
-    edits.addPatches(to.strokes[next], from.strokes[next].patches.size());
-    ++next;
-  } else if (next == 0 && from.in_force > 0) {
-    edits.add(CutKind::kReset);
-  } else {
-    while (edits.at().in_force > next) edits.add(CutKind::kUndo);
+std::optional<Cut> nextEdit(const EditHistory& from, const EditHistory& to) {
+  Cut cut{from.revision + 1, 0, CutKind::kCut, {}};
+  if (to.in_force > 0) {
+    cut.stroke = to.strokes[to.in_force - 1].number;
+    cut.patch = to.strokes[to.in_force - 1].patches.back();
   }
-  for (; next < to.in_force; ++next) {
-    const EditHistory& at = edits.at();
-    const Stroke& stroke = to.strokes[next];
-    if (at.in_force < at.strokes.size() && sameStroke(at.strokes[at.in_force], stroke) && !isOpen(to, next)) {
-      edits.add(CutKind::kRedo);
-      continue;
-    }
-    if (at.is_open && at.in_force > 0 && at.strokes[at.in_force - 1].number == stroke.number) edits.close();
-    edits.addPatches(stroke, 0);
+  const Cut none{cut.revision, 0, CutKind::kUndo, {}};
+  for (const CutKind kind : {CutKind::kCut, CutKind::kUndo, CutKind::kRedo, CutKind::kReset}) {
+    Cut edit = kind == CutKind::kCut ? cut : none;
+    edit.kind = kind;
+    EditHistory after = from;
+    if (edit.revision != to.revision || !refusalOf(edit, from).empty()) continue;
+    addEdit(edit, &after);
+    if (sameEdits(after, to)) return edit;
   }
-  return edits.take();
+  return std::nullopt;
+}
+
+std::size_t commonStrokes(const EditHistory& a, const EditHistory& b) {
+  const auto first_other =
+      std::mismatch(a.strokes.begin(), a.strokes.end(), b.strokes.begin(), b.strokes.end(), sameStroke);
+  return static_cast<std::size_t>(first_other.first - a.strokes.begin());
 }
 
 bool sameEdits(const EditHistory& a, const EditHistory& b) {

@@ -6,7 +6,7 @@
 
 #include "softbody_common/time/stage_timer.h"
 #include "softbody_recordings/pipeline/body_surroundings.h"
-#include "softbody_sim/cutting/binding/cuttable_surface.h"
+#include "softbody_sim/cutting/binding/cuttable_body.h"
 #include "softbody_sim/dynamics/simulator.h"
 #include "softbody_sim/forces/force_schedule.h"
 #include "softbody_sim/object/material_parameters.h"
@@ -55,9 +55,11 @@ class Pipeline {
   /// nothing.
   Pipeline(const ObjectModel& model, const PipelineConfig& config,
            const std::optional<ToolDescription>& tool = std::nullopt);
+  Pipeline(const Pipeline&) = delete;  ///< the body calls the simulator beside it
+  Pipeline& operator=(const Pipeline&) = delete;
 
   const TetTopology& volumeTopology() const { return simulator_.topology(); }
-  const MeshTopology& surfaceTopology() const { return surface_.surface().topology(); }
+  const MeshTopology& surfaceTopology() const { return body_.surface().topology(); }
 
   /// A frame of another pass starts with the uncut body, as the graph's nodes do.
   /// @param cuts of this frame, e.g. from a journal, in addition to the tool's cuts. They wait until the body
@@ -81,7 +83,7 @@ class Pipeline {
   std::size_t waitingCuts() const { return waiting_cuts_.size(); }
 
  private:
-  CuttableSurface makeSurface();
+  CuttableBody makeBody();
   void startPass();
   std::optional<ToolObservation> trackTool(const RgbdFrame& frame, const SurroundingsInput& surroundings);
   void simulate(const TargetSet& targets, Nanoseconds stamp, const SurroundingsInput& input,
@@ -92,7 +94,7 @@ class Pipeline {
   std::optional<Points> seenBlade(const RgbdFrame& frame, const FrameOutput& output) const;
   void followBlade(const Points& blade, Nanoseconds stamp, FrameOutput* output);
   void tear(const TargetSet& targets, FrameOutput* output);
-  void adopt(const Cut& cut, FrameOutput* output);
+  void announce(const Cut& cut, FrameOutput* output);
 
   const TetTopology uncut_volume_;
   const MeshTopology uncut_surface_;
@@ -102,7 +104,7 @@ class Pipeline {
   StageTimer timer_;
   BodyTracker tracker_;
   Simulator simulator_;
-  CuttableSurface surface_;
+  CuttableBody body_;  ///< the simulator follows it
   BodySurroundings surroundings_;
   ForceSchedule force_schedule_;
   std::optional<ToolTracker> tool_tracker_;

@@ -30,7 +30,7 @@ Pipeline::Pipeline(const ObjectModel& model, const PipelineConfig& config,
       to_be_placed_(config.placed),
       tracker_(config.tracker, config.picture),
       simulator_(makeSimulator(model, config, &timer_)),
-      surface_(makeSurface()),
+      body_(makeBody()),
       surroundings_(config.surroundings, config.pins, {uncut_surface_, uncut_volume_}, uncut_volume_) {
   if (to_be_placed_ && !uncut_volume_.has_initial_pose)
     throw std::invalid_argument("the object has no initial_pose at which it can be placed");
@@ -39,14 +39,15 @@ Pipeline::Pipeline(const ObjectModel& model, const PipelineConfig& config,
   tracker_.setTopologies(volumeTopology(), surfaceTopology());
 }
 
-CuttableSurface Pipeline::makeSurface() {
+CuttableBody Pipeline::makeBody() {
   const auto scope = timer_.stage("Resolution Enhancement", true);
-  return {uncut_surface_, uncut_volume_, cutting_};
+  return {uncut_surface_, uncut_volume_, cutting_,
+          [this](const TetEdits& edits) { simulator_.apply(edits); }};
 }
 
 void Pipeline::startPass() {
   simulator_.reset();
-  surface_ = makeSurface();
+  body_ = makeBody();
   waiting_cuts_.clear();
   surroundings_.restart(uncut_volume_);
   tracker_.setTopologies(volumeTopology(), surfaceTopology());
@@ -131,7 +132,7 @@ void Pipeline::simulate(const TargetSet& targets, Nanoseconds stamp, const Surro
 void Pipeline::addShape(FrameOutput* output) {
   const auto scope = timer_.stage("Resolution Enhancement");
   output->volume = simulator_.state();
-  output->surface = surface_.surface().apply(simulator_.state());
+  output->surface = body_.surface().apply(simulator_.state());
 }
 
 /// Those of pins are without the springs of the targets, and left out in frames without an estimate.
@@ -157,11 +158,11 @@ void Pipeline::makeWaitingCuts(FrameOutput* output) {
   for (const Cut& given : std::exchange(waiting_cuts_, {})) {
     std::string reason;
     try {
-      if (surface_.apply(given, simulator_.state(), &reason)) {
-        adopt(given, output);
+      if (body_.apply(given, simulator_.state(), &reason)) {
+        announce(given, output);
         continue;
       }
-    } catch (const std::invalid_argument& error) {
+    } catch (const std::exception& error) {
       reason = error.what();
     }
     output->warnings.push_back(
@@ -179,38 +180,25 @@ void Pipeline::followBlade(const Points& blade, Nanoseconds stamp, FrameOutput* 
   const auto scope = timer_.stage("Cutting");
   std::optional<Cut> own;
   try {
-    own = surface_.follow(blade, simulator_.state(), stamp);
+    own = body_.follow(blade, simulator_.state(), stamp);
   } catch (const std::exception& error) {
     output->warnings.push_back(fmt::format("the blade cannot cut: {}", error.what()));
   }
-  if (own) adopt(*own, output);
+  if (own) announce(*own, output);
 }
 
 void Pipeline::tear(const TargetSet& targets, FrameOutput* output) {
   std::optional<Cut> torn;
   try {
-    torn = surface_.tear(simulator_.state(), targets);
+    torn = body_.tear(simulator_.state(), targets);
   } catch (const std::exception& error) {
     output->warnings.push_back(fmt::format("the body cannot tear: {}", error.what()));
   }
-  if (torn) adopt(*torn, output);
+  if (torn) announce(*torn, output);
 }
 
-void Pipeline::adopt(const Cut& cut, FrameOutput* output) {
-  std::string reason;
-  bool made = false;
-  try {
-    made = simulator_.apply(cut, &reason);
-  } catch (const std::exception& error) {
-    reason = error.what();
-  }
-  if (!made) {
-    surface_.rollBack(cut.revision - 1);
-    output->warnings.push_back(
-        fmt::format("the simulator cannot make the cut of revision {}: {}", cut.revision, reason));
-    return;
-  }
-  surface_.confirm(cut.revision);
+/// A cut is made: the other models of the body get the new topologies.
+void Pipeline::announce(const Cut& cut, FrameOutput* output) {
   surroundings_.update(simulator_);
   tracker_.setTopologies(volumeTopology(), surfaceTopology());
   output->cuts.push_back(cut);

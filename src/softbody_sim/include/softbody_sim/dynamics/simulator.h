@@ -1,13 +1,12 @@
 #pragma once
 
 #include <memory>
-#include <string>
 #include <vector>
 
-#include "softbody_common/cutting/edit_history.h"
 #include "softbody_common/geometry/types.h"
 #include "softbody_sim/constraints/contact_patch.h"
 #include "softbody_sim/constraints/surroundings.h"
+#include "softbody_sim/cutting/tet_edits.h"
 #include "softbody_sim/dynamics/simulator_config.h"
 #include "softbody_sim/forces/force_estimate.h"
 #include "softbody_sim/object/material.h"
@@ -67,28 +66,10 @@ class Simulator {
   /// @throw std::invalid_argument if the body is not placed, or the vertices are not #V finite points.
   void setVertices(const Points& vertices);
 
-  /// Edits the topology. Positions, velocities and confidences are continuous. Targets of the last few
-  /// revisions are still accepted. A patch that crosses no tet edge changes only the revision.
-  /// @return false if the cut is refused; then nothing changes.
-  /// @param reason of the refusal: the cut is not for the next revision, there is nothing to undo or redo, or
-  /// the body has too many cuts.
-  /// @throw std::invalid_argument if the patch is not finite or has an invalid index.
-  bool apply(const Cut& cut, std::string* reason);
-  /// Whether a cut would cut a tet. @param reason why not. @throw as apply does.
-  bool crosses(const Cut& cut, std::string* reason) const;
-
-  /// All edits since the uncut body.
-  const EditHistory& edits() const;
-  /// The body before all edits; its revision may be a later one.
-  const TetTopology& uncut() const;
-  /// Identifies the uncut body in edits().
-  void setBody(std::uint64_t body);
-  /// Makes the strokes that are in force in a history of the same uncut body, and can undo and redo its
-  /// strokes. Positions, velocities and confidences are continuous.
-  /// @throw std::invalid_argument as apply does; nothing has changed.
-  void adopt(const EditHistory& edits);
-  /// Number of strokes whose undo or redo has to cut the body again, because undo_memory_mb was full.
-  std::size_t droppedVersions() const;
+  /// Takes over edits of its tets, for example as the follower of a CuttableBody. Positions, velocities and
+  /// confidences are continuous. Targets of the last few revisions are still accepted. If it throws, nothing
+  /// has changed. @throw std::invalid_argument if the edits are of other tets.
+  void apply(const TetEdits& edits);
 
   /// Converts targets of one of the last few revisions to the current one; other targets stay as they are. To
   /// keep targets through many edits, convert them after each edit.
@@ -97,7 +78,7 @@ class Simulator {
   const SimulatorConfig& config() const;
   /// Changes what the body is made of and how the next steps are made. Shape, motion and cuts stay. Estimated
   /// loads and what earlier frames have measured are forgotten, with load_fade_s 0 also standard deviations.
-  /// undo_memory_mb holds from the next reset() on. The time is that of the first construction.
+  /// The time is that of the first construction.
   /// @throw std::invalid_argument as the constructor does; nothing has changed.
   void change(const Material& material, const SimulatorConfig& config);
   /// The same with the present config.

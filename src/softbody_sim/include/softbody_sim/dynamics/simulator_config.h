@@ -39,7 +39,6 @@ struct SimulatorConfig {
   bool self_contact = false;        ///< the body touches itself, in steps without targets
   double self_friction = 0.0;       ///< coefficient of Coulomb friction of the body on itself
   double contact_spacing = 0.5;     ///< of the contact points on the surface [mean edge lengths]
-  double undo_memory_mb = 40.0;     ///< as in CuttingConfig
 };
 
 /// Maximum of weight times target_stiffness, in units of E * mean edge length. With stiffer targets, the

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "constraints/contact_patches.h"
-#include "cutting/volume/undo_versions.h"
 #include "dynamics/direct_deformation.h"
 #include "dynamics/external_forces.h"
 #include "dynamics/simulator_implementation.h"
@@ -27,7 +26,6 @@ Simulator::Implementation::Implementation(const TetTopology& topology, const Mat
       material(material_in),
       config(config_in),
       edge_length(meanEdgeLength(topology.rest_vertices, topology.tets)),
-      volume(topology, undoBytes()),
       integrator(config_in, material_in.damping) {
   requireUsedRegions(topology, material_in);
   setTopology(topology);
@@ -58,7 +56,7 @@ void Simulator::Implementation::makeModel(const TetTopology& topology, const Mat
 const TargetSet& Simulator::Implementation::toCurrentRevision(const TargetSet& targets,
                                                               TargetSet* storage) const {
   if (targets.revision == model->topology.revision) return targets;
-  *storage = volume.toCurrentRevision(targets);
+  *storage = recent.toCurrentRevision(targets);
   return *storage;
 }
 
@@ -244,67 +242,35 @@ void Simulator::reset() {
   Implementation& s = *implementation_;
   s.body = {};
   s.model->constrained_step.restart(s.model->topology.rest_vertices);
-  if (s.model->topology.revision != s.uncut.revision) {
-    s.volume = EditedVolume(s.uncut, s.undoBytes());
-    s.setTopology(s.uncut);
-  }
+  s.recent.clear();
+  if (s.model->topology.revision != s.uncut.revision) s.setTopology(s.uncut);
   s.body.mesh.revision = s.uncut.revision;
 }
 
-void Simulator::Implementation::setEdited(EditedVolume edited, BodyState next_body) {
-  setTopology(edited.topology());
-  if (next_body.placed) model->load_estimator.balance(next_body.mesh.vertices, &next_body.loads.per_mass);
-  next_body.mesh.revision = edited.topology().revision;
-  volume = std::move(edited);
-  body = std::move(next_body);
-}
-
-bool Simulator::apply(const Cut& cut, std::string* reason) {
+void Simulator::apply(const TetEdits& edits) {
   Implementation& s = *implementation_;
-  s.volume.makeRoomFor(cut);
-  EditedVolume edited = s.volume;
-  const std::optional<TetEdit> edit = edited.apply(cut, reason);
-  if (!edit) return false;
   BodyState next = s.body;
-  if (next.placed) transferToEdit(*edit, s.model->topology.tets, &next);
-  s.setEdited(std::move(edited), std::move(next));
-  return true;
+  const TetTopology before = s.model->topology;
+  const TetTopology* at = &before;
+  for (const std::shared_ptr<const TetEdit>& edit : edits) {
+    if (edit->successors.size() != static_cast<std::size_t>(at->tets.rows())) {
+      throw std::invalid_argument(fmt::format("the edit is of {} tets, but the body has {}",
+                                              edit->successors.size(), at->tets.rows()));
+    }
+    if (next.placed) transferToEdit(*edit, at->tets, &next);
+    at = &edit->topology;
+  }
+  s.setTopology(*at);
+  if (next.placed) s.model->load_estimator.balance(next.mesh.vertices, &next.loads.per_mass);
+  next.mesh.revision = at->revision;
+  s.recent.add(before, edits);
+  s.body = std::move(next);
 }
-
-bool Simulator::crosses(const Cut& cut, std::string* reason) const {
-  return implementation_->volume.crosses(cut, reason);
-}
-
-const EditHistory& Simulator::edits() const { return implementation_->volume.history().edits(); }
 
 Nanoseconds Simulator::stamp() const { return implementation_->body.stamp; }
-const TetTopology& Simulator::uncut() const { return implementation_->uncut; }
-
-void Simulator::setBody(std::uint64_t body) { implementation_->volume.setBody(body); }
-
-std::size_t Simulator::droppedVersions() const {
-  return softbody::droppedVersions(implementation_->volume.history());
-}
-
-void Simulator::adopt(const EditHistory& edits) {
-  Implementation& s = *implementation_;
-  const std::vector<Cut> cuts = editsBetween(s.volume.history().edits(), edits);
-  if (!cuts.empty()) s.volume.makeRoomFor(cuts.front());
-  EditedVolume edited = s.volume;
-  BodyState next = s.body;
-  for (const Cut& cut : cuts) {
-    const Tets before = edited.topology().tets;
-    std::string reason;
-    const std::optional<TetEdit> edit = edited.apply(cut, &reason);
-    if (!edit) throw std::invalid_argument(reason);
-    if (next.placed) transferToEdit(*edit, before, &next);
-  }
-  edited.take(edits);
-  s.setEdited(std::move(edited), std::move(next));
-}
 
 TargetSet Simulator::toCurrentRevision(TargetSet targets) const {
-  return implementation_->volume.toCurrentRevision(std::move(targets));
+  return implementation_->recent.toCurrentRevision(std::move(targets));
 }
 
 const MeshState& Simulator::state() const { return implementation_->body.mesh; }

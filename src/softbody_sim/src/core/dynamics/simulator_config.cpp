@@ -79,8 +79,6 @@ Table makeSimulatorTable() {
   addSolver(&table);
   addEstimate(&table);
   addContact(&table);
-  table.number("undo_memory_mb", &Config::undo_memory_mb, {0.0, 1e5}, "MB",
-               "memory of the tets that are kept for [undo and redo](../cutting.md#limits)");
   table.check(requireConsistent);
   return table;
 }

@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "cutting/volume/edited_volume.h"
+#include "cutting/volume/recent_edits.h"
 #include "dynamics/body_model.h"
 #include "dynamics/body_state.h"
 #include "dynamics/implicit_euler.h"
@@ -18,9 +18,6 @@ struct Simulator::Implementation {
   void setTopology(const TetTopology& topology);
   void makeModel(const TetTopology& topology, const Material& next_material,
                  const SimulatorConfig& next_config);
-  std::size_t undoBytes() const { return static_cast<std::size_t>(1e6 * config.undo_memory_mb); }
-  /// Takes over an edited volume and the body in its shape.
-  void setEdited(EditedVolume edited, BodyState next);
   /// The targets for the present revision. @param storage holds them if they were for an earlier one.
   const TargetSet& toCurrentRevision(const TargetSet& targets, TargetSet* storage) const;
   void requireUsable(const TargetSet& targets, const Surroundings& surroundings) const;
@@ -34,8 +31,8 @@ struct Simulator::Implementation {
   SimulatorConfig config;
   const double edge_length;  ///< mean, of the uncut body [m]
 
-  EditedVolume volume;
-  std::unique_ptr<BodyModel> model;  ///< for the volume's topology
+  RecentEdits recent;
+  std::unique_ptr<BodyModel> model;
   BodyState body;
   BodyState next;  ///< of a step that may still fail
 

@@ -11,7 +11,7 @@
 
 #include "softbody_common/geometry/tet_geometry.h"
 #include "softbody_common/images/rasterizer.h"
-#include "softbody_sim/cutting/binding/cuttable_surface.h"
+#include "softbody_sim/cutting/binding/cuttable_body.h"
 #include "softbody_sim/cutting/patch/cut_shapes.h"
 #include "softbody_sim/dynamics/simulator.h"
 #include "surface_mesh/self_intersection.h"
@@ -117,7 +117,7 @@ Eigen::Vector3d middleOfLargestPiece(const MeshTopology& mesh) {
       .center();
 }
 
-void tryCuts(const CuttableSurface& surface, const MeshTopology& mesh, ModelTrial* trial) {
+void tryCuts(const CuttableBody& surface, const MeshTopology& mesh, ModelTrial* trial) {
   const double whole = enclosedVolume(mesh.rest_vertices, mesh.triangles);
   const Eigen::Vector3d middle = middleOfLargestPiece(mesh);
   for (int axis = 0; axis < 3; ++axis) {
@@ -150,7 +150,7 @@ void findCrossings(const MeshTopology& mesh, ModelTrial* trial) {
 
 ModelTrial tryModel(const ObjectModel& model) try {
   ModelTrial trial;
-  const CuttableSurface surface(model.visual, model.volume);
+  const CuttableBody surface(model.visual, model.volume);
   const MeshState state = simulate(model, &trial);
   measureFrames(surface.surface(), state, &trial.cost);
   findCrossings(model.visual, &trial);

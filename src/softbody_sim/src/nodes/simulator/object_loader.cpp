@@ -100,7 +100,6 @@ std::shared_ptr<NextObject> ObjectLoader::make(const SimulatedObject& object, Bo
   auto next = std::make_shared<NextObject>(
       NextObject{{object.model.volume, object.model.material, config}, object.pins, std::move(surface)});
   next->simulator.prepare();
-  next->simulator.setBody(ros::WallTime::now().toNSec());
   return next;
 }
 

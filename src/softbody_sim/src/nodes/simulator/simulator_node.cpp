@@ -17,7 +17,8 @@ namespace softbody {
 namespace {
 
 constexpr char kStage[] = "Soft-body Simulation";
-constexpr int kTargetsQueue = 10;  // target sets, until the newest of them is taken
+constexpr double kUndoMemory_mb = 40.0;  // the tets of hundreds of strokes
+constexpr int kTargetsQueue = 10;        // target sets, until the newest of them is taken
 
 /// @param options gets the material that is in force.
 Simulator makeSimulator(const ObjectModel& model, SimulatorOptions* options, StageTimer* timer) {
@@ -49,6 +50,7 @@ SimulatorNode::SimulatorNode(ros::NodeHandle node, const ros::NodeHandle& privat
                              const SurroundingsConfig& surroundings)
     : options_(options),
       simulator_(makeSimulator(object.model, &options_, &timer_)),
+      body_(makeBody()),
       surroundings_(node, surroundings, {object.model.visual, object.model.volume}),
       stamps_(node.resolveName(topics::kTargets), StampGate::Repeats::kAccepted),
       publisher_(node, options_.body_frame),
@@ -64,7 +66,7 @@ SimulatorNode::SimulatorNode(ros::NodeHandle node, const ros::NodeHandle& privat
                [this](NextObject* next) { useObject(next); }}) {
   if (surroundings.gripper) gripper_.emplace(node, private_node, surroundings, &simulator_, &surroundings_);
   for (const PinRegion& pin : object.pins) surroundings_.addPin(pin, object.model.volume);
-  publisher_.publishEdited(simulator_, {});
+  publisher_.publishEdited(body_, {});
   const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
   targets_subscriber_ = node.subscribe<softbody_msgs::Targets>(
       topics::kTargets, kTargetsQueue, [this](const auto& message) { targets_.add(message); }, {}, hints);
@@ -153,10 +155,18 @@ bool SimulatorNode::admits(const ros::Time& stamp) {
   return stamps_.admits(verdict);
 }
 
+CuttableBody SimulatorNode::makeBody() {
+  CuttingConfig config;
+  config.undo_memory_mb = kUndoMemory_mb;
+  return CuttableBody(simulator_.topology(), config,
+                      [this](const TetEdits& edits) { simulator_.apply(edits); });
+}
+
 void SimulatorNode::restart() {
   if (simulator_.topology().revision > 0)
     ROS_INFO("time jumped back: the simulation starts again with the uncut body");
   simulator_.reset();
+  body_ = makeBody();
   surroundings_.updatePins(simulator_.topology(), {});
   last_ = {};
   keepOwnBody();
@@ -197,10 +207,8 @@ void SimulatorNode::onCut(const softbody_msgs::CutConstPtr& message) {
 
 bool SimulatorNode::applyCut(const softbody_msgs::Cut& message, std::string* reason) {
   const auto scope = timer_.stage("Cutting");
-  const Cut cut = fromMessage(message);
-  if (cut.kind == CutKind::kCut && !simulator_.crosses(cut, reason)) return false;
-  if (!simulator_.apply(cut, reason)) return false;
-  if (simulator_.edits().body == 0) simulator_.setBody(ros::WallTime::now().toNSec());
+  if (!body_.apply(fromMessage(message), simulator_.state(), reason)) return false;
+  if (body_.edits().body == 0) body_.setBody(ros::WallTime::now().toNSec());
   publishEdited(message.header.stamp);
   return true;
 }
@@ -208,7 +216,7 @@ bool SimulatorNode::applyCut(const softbody_msgs::Cut& message, std::string* rea
 /// Follows the surface. Where the two nodes disagree, the surface follows the simulator. But a simulator that
 /// has just started has nothing to say.
 void SimulatorNode::onSurfaceEdits(const softbody_msgs::CutHistoryConstPtr& message) {
-  const EditHistory& own = simulator_.edits();
+  const EditHistory& own = body_.edits();
   const bool is_new = own.body == 0;
   if (is_new && message->body == 0) return;
   // Own edits come again every second, but until then the surface would accept cuts that are never made.
@@ -216,8 +224,8 @@ void SimulatorNode::onSurfaceEdits(const softbody_msgs::CutHistoryConstPtr& mess
   if (!is_new && message->revision <= own.revision) return;
   try {
     const auto scope = timer_.stage("Cutting");
-    if (adopt(fromMessage(*message))) return publishEdited(message->header.stamp);
-    ROS_WARN("the cuts of the surface are not made: they are of another object");
+    adopt(fromMessage(*message));
+    return publishEdited(message->header.stamp);
   } catch (const std::exception& error) {
     ROS_WARN_STREAM("the cuts of the surface up to revision " << message->revision
                                                               << " are not made: " << error.what());
@@ -227,45 +235,40 @@ void SimulatorNode::onSurfaceEdits(const softbody_msgs::CutHistoryConstPtr& mess
   keepOwnBody();
 }
 
-/// @return false if they are of another object. @throw std::invalid_argument if they cannot be made.
-bool SimulatorNode::adopt(const EditedBody& theirs) {
-  if (!sameRestBody(theirs.uncut, simulator_.uncut())) return false;
-  const std::string refusal = refusalOf(theirs.edits, simulator_.edits());
+/// @throw std::invalid_argument if they are of another object, or cannot be made.
+void SimulatorNode::adopt(const EditedBody& theirs) {
+  if (!sameRestBody(theirs.uncut, body_.uncutVolume()))
+    throw std::invalid_argument("they are of another object");
+  const std::string refusal = refusalOf(theirs.edits, body_.edits());
   if (!refusal.empty()) throw std::invalid_argument(refusal);
-  const bool skips = theirs.edits.revision > simulator_.edits().revision + 1;
-  simulator_.adopt(theirs.edits);
+  const bool skips = theirs.edits.revision > body_.edits().revision + 1;
+  body_.adopt(theirs.edits);
   if (skips) {
     ROS_INFO("taken over from the surface: revision %u with %zu strokes of cuts", theirs.edits.revision,
              theirs.edits.in_force);
   }
-  return true;
 }
 
 void SimulatorNode::keepOwnBody() {
-  simulator_.setBody(ros::WallTime::now().toNSec());
+  body_.setBody(ros::WallTime::now().toNSec());
   publishOwnEdits();
 }
 
 /// The other nodes follow this body.
 void SimulatorNode::publishOwnEdits() {
-  publisher_.publishEdited(simulator_, simulator_.placed() ? last_.header.stamp : ros::Time());
+  publisher_.publishEdited(body_, simulator_.placed() ? last_.header.stamp : ros::Time());
 }
 
 void SimulatorNode::publishEdited(const ros::Time& stamp) {
   surroundings_.updatePins(simulator_.topology(), simulator_.state().vertices);
   // Only before the body is placed the stamp is 0: then the topology gets the stamp of the first frame.
   const ros::Time& of_frame = stamp.isZero() ? last_.header.stamp : stamp;
-  publisher_.publishEdited(simulator_, simulator_.placed() ? of_frame : ros::Time());
+  publisher_.publishEdited(body_, simulator_.placed() ? of_frame : ros::Time());
   last_.set = simulator_.toCurrentRevision(std::move(last_.set));
   // After several edits at once the earlier targets cannot be found again.
   if (last_.set.revision != simulator_.topology().revision) last_.set.targets.clear();
   last_.set.revision = simulator_.topology().revision;
   malloc_trim(0);  // returns the memory of the model before the edit
-  if (simulator_.droppedVersions() > 0) {
-    ROS_INFO_ONCE(
-        "undo_memory_mb is full: undo of the oldest strokes will take longer, because the body is "
-        "cut again");
-  }
 }
 
 /// What is new in the options takes effect with the next step.
@@ -300,10 +303,11 @@ void SimulatorNode::useObject(NextObject* next) {
     next->simulator.setConfig(options_.simulator);  // changed while the object was loaded
   surroundings_.replacePins(next->surface, next->pins, topology);
   simulator_ = std::move(next->simulator);
+  body_ = makeBody();
   options_.material = parametersOf(simulator_.material());
   live_parameters_.publishChanges();
   last_ = {};
-  publishOwnEdits();
+  keepOwnBody();
   malloc_trim(0);  // returns the memory of the object before
   ROS_INFO("another object is simulated, from revision %u on", simulator_.topology().revision);
 }

@@ -21,6 +21,7 @@
 #include "softbody_common/ros/newest_only.h"
 #include "softbody_common/ros/stamp_gate.h"
 #include "softbody_common/time/stage_timer.h"
+#include "softbody_sim/cutting/binding/cuttable_body.h"
 #include "softbody_sim/dynamics/simulator.h"
 #include "softbody_sim/ros/simulator_options.h"
 
@@ -55,8 +56,9 @@ class SimulatorNode {
   void requireBodyFrame(const TargetSet& targets, const std::string& frame_id) const;
   bool admits(const ros::Time& stamp);
   void restart();
+  CuttableBody makeBody();
   bool applyCut(const softbody_msgs::Cut& message, std::string* reason);
-  bool adopt(const EditedBody& theirs);
+  void adopt(const EditedBody& theirs);
   void keepOwnBody();
   void publishOwnEdits();
   void publishEdited(const ros::Time& stamp);
@@ -72,6 +74,7 @@ class SimulatorNode {
   SimulatorOptions options_;  ///< with the material that is in force
   StageTimer timer_;
   Simulator simulator_;
+  CuttableBody body_;  ///< the tets; the simulator follows them
   SurroundingsTracker surroundings_;
   StampGate stamps_;  ///< of the targets
   LastTargets last_;

@@ -24,10 +24,10 @@ VolumePublisher::VolumePublisher(ros::NodeHandle node, std::string body_frame)
   });
 }
 
-void VolumePublisher::publishEdited(const Simulator& simulator, const ros::Time& stamp) {
-  edits_ = historyMessage(simulator.edits(), simulator.uncut(), body_frame_, stamp);
+void VolumePublisher::publishEdited(const CuttableBody& body, const ros::Time& stamp) {
+  edits_ = historyMessage(body.edits(), body.uncutVolume(), body_frame_, stamp);
   edits_publisher_.publish(edits_);
-  publishTopology(simulator.topology(), stamp);
+  publishTopology(body.volume(), stamp);
 }
 
 void VolumePublisher::publishTopology(const TetTopology& topology, const ros::Time& stamp) {

@@ -9,7 +9,7 @@
 
 #include "softbody_common/geometry/types.h"
 #include "softbody_common/time/stage_timer.h"
-#include "softbody_sim/dynamics/simulator.h"
+#include "softbody_sim/cutting/binding/cuttable_body.h"
 
 namespace softbody {
 
@@ -22,7 +22,7 @@ class VolumePublisher {
   /// @param stamp of the first frame with this topology; 0: the body is not placed.
   void publishTopology(const TetTopology& topology, const ros::Time& stamp);
   /// Publishes a topology and the edits that it comes from.
-  void publishEdited(const Simulator& simulator, const ros::Time& stamp);
+  void publishEdited(const CuttableBody& body, const ros::Time& stamp);
   /// Whether the published topology has the stamp of a frame.
   bool topologyHasStamp() const { return !topology_->header.stamp.isZero(); }
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "softbody_sim/cutting/binding/cuttable_surface.h"
+#include "softbody_sim/cutting/binding/cuttable_body.h"
 #include "softbody_sim/surface_mesh/cut_lines.h"
 
 namespace softbody {

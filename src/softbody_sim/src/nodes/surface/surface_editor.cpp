@@ -2,6 +2,7 @@
 
 #include <malloc.h>
 
+#include <boost/make_shared.hpp>
 #include <stdexcept>
 #include <utility>
 
@@ -13,15 +14,19 @@ namespace softbody {
 namespace {
 
 constexpr std::size_t kMostRecordedCuts = 100;  // that wait
+/// A simulator that publishes without the cut for this long will not make it.
+constexpr double kLongestLag = 3.0;  // [s]
 
 }  // namespace
 
 SurfaceEditor::SurfaceEditor(ros::NodeHandle node, const std::string& body_frame, ObjectVisual* visual,
                              const CuttingConfig& config, std::function<void()> on_edit)
-    : visual_(visual),
+    : body_frame_(body_frame),
+      visual_(visual),
       config_(config),
       on_edit_(std::move(on_edit)),
-      cuts_(node, body_frame),
+      cut_publisher_(node.advertise<softbody_msgs::Cut>(topics::kCut, 20)),
+      edits_publisher_(node.advertise<softbody_msgs::CutHistory>(topics::kSurfaceCuts, 1, true)),
       blade_(node, [this](const Points& polygon, const ros::Time& stamp) { onBlade(polygon, stamp); }) {
   if (config.tear_strain > 0.0) targets_.emplace(node);
   cut_subscriber_ = node.subscribe(topics::kCut, 20, &SurfaceEditor::onRecordedCut, this,
@@ -30,12 +35,12 @@ SurfaceEditor::SurfaceEditor(ros::NodeHandle node, const std::string& body_frame
 
 void SurfaceEditor::start(const TetTopology& volume) {
   visual_->update();
-  body_.emplace(uncutSurface(volume));
+  body_.emplace(uncutBody(volume));
   resetInputs();
-  cuts_.publishEdits(*body_, {}, false);
+  publishEdits({}, false);
 }
 
-CuttableSurface SurfaceEditor::uncutSurface(const TetTopology& volume) const {
+CuttableBody SurfaceEditor::uncutBody(const TetTopology& volume) const {
   MeshTopology visual = visual_->mesh();
   visual.revision = volume.revision;
   return {visual, volume, config_};
@@ -51,15 +56,14 @@ void SurfaceEditor::resetInputs() {
 void SurfaceEditor::onState(const MeshState& state, const std_msgs::Header& header) {
   state_ = state;
   state_header_ = header;
-  confirm(state.revision);
+  noteSimulator(state.revision);
   makeRecordedCuts();
   blade_.onState(header);
   tear();
 }
 
-void SurfaceEditor::confirm(std::uint32_t revision) {
-  cuts_.confirm(revision);
-  if (body_) body_->confirm(revision);
+void SurfaceEditor::noteSimulator(std::uint32_t revision) {
+  if (body_ && revision >= body_->volume().revision) pending_ = false;
 }
 
 void SurfaceEditor::onBlade(const Points& polygon, const ros::Time& stamp) {
@@ -85,13 +89,23 @@ void SurfaceEditor::tear() {
 }
 
 void SurfaceEditor::publish(const Cut& cut, const ros::Time& stamp) {
-  cuts_.publish(cut, stamp);
+  const auto message = boost::make_shared<softbody_msgs::Cut>(toMessage(cut));
+  message->header.stamp = stamp;
+  message->header.frame_id = body_frame_;
+  cut_publisher_.publish(message);
   finishEdit(stamp);
+}
+
+/// The edits are latched. @param pending the simulator has to follow.
+void SurfaceEditor::publishEdits(const ros::Time& stamp, bool pending) {
+  edits_publisher_.publish(historyMessage(body_->edits(), body_->uncutVolume(), body_frame_, stamp));
+  pending_ = pending;
+  behind_since_.reset();
 }
 
 void SurfaceEditor::finishEdit(const ros::Time& stamp) {
   if (body_->edits().body == 0) body_->setBody(ros::WallTime::now().toNSec());
-  cuts_.publishEdits(*body_, stamp, true);
+  publishEdits(stamp, true);
   malloc_trim(0);  // returns the memory of dropped versions
   if (body_->droppedVersions() > 0) {
     ROS_INFO_ONCE(
@@ -102,55 +116,56 @@ void SurfaceEditor::finishEdit(const ros::Time& stamp) {
 }
 
 bool SurfaceEditor::onVolumeTopology(std::uint32_t revision) {
-  if (!state_) confirm(revision);  // a body that is not placed has no states that confirm
+  if (!state_) noteSimulator(revision);  // a body that is not placed has no states
   makeRecordedCuts();
-  const std::uint32_t own_revision = body_ ? body_->volume().revision : 0;
-  if (cuts_.isOverdue(own_revision, revision)) return rollBack(revision);
-  cuts_.resend(revision);
-  return true;
+  const ros::WallTime now = ros::WallTime::now();
+  const bool is_behind = body_ && revision < body_->volume().revision;
+  behind_since_ = is_behind ? behind_since_.value_or(now) : std::optional<ros::WallTime>();
+  return !is_behind || (now - *behind_since_).toSec() <= kLongestLag || takeBack(revision);
 }
 
-/// The simulator refused the cut, or failed. Without a roll-back no further cut would be possible.
+/// The simulator refused the cut, or failed. Otherwise no further cut would be possible.
 /// @return false if the surface has never been at this revision: the simulator has another body.
-bool SurfaceEditor::rollBack(std::uint32_t volume_revision) {
+bool SurfaceEditor::takeBack(std::uint32_t simulator_revision) {
   const std::uint32_t revision = body_->volume().revision;
-  if (!body_->rollBack(volume_revision)) return false;
-  cuts_.publishEdits(*body_, state_header_.stamp, false);
+  body_->takeBack();
+  if (body_->volume().revision != simulator_revision) return false;
+  publishEdits(state_header_.stamp, false);
   ROS_ERROR(
       "the simulator stays at revision %u and does not make the cut of revision %u: the surface takes it "
       "back",
-      volume_revision, revision);
+      simulator_revision, revision);
   return true;
 }
 
-/// A simulator that has just started takes over the edits of the surface. Otherwise the simulator is right.
-/// An edit that it has not made yet is on its way.
+/// A simulator that has just started takes over the edits of the surface, if there are any. Otherwise the
+/// simulator is right. An edit that it has not made yet is on its way.
 void SurfaceEditor::onVolumeEdits(const EditedBody& theirs) {
   static const EditHistory kNone;
   const EditHistory& own = body_ ? body_->edits() : kNone;
   const std::string refusal = refusalOf(theirs.edits, own);
   if (!refusal.empty()) throw std::invalid_argument(refusal);
   if (!body_) return adopt(theirs);
-  if (theirs.edits.body == 0) return;
-  const bool same_body = theirs.edits.body == own.body;
+  if (theirs.edits.body == 0 && own.body != 0) return;
+  const bool same_body = theirs.edits.body == own.body && sameRestBody(body_->uncutVolume(), theirs.uncut);
   if (same_body && theirs.edits.revision < own.revision) return;
   if (same_body && theirs.edits.revision == own.revision && sameEdits(theirs.edits, own)) return;
   adopt(theirs);
 }
 
 void SurfaceEditor::adopt(const EditedBody& theirs) {
-  const bool other_visual = (!body_ || body_->edits().body != theirs.edits.body) && visual_->update();
-  const bool same_rest = body_ && !other_visual && sameRestBody(body_->uncutVolume(), theirs.uncut);
+  bool same_rest = body_ && sameRestBody(body_->uncutVolume(), theirs.uncut);
   const bool same_body = same_rest && body_->edits().body == theirs.edits.body;
+  if (!same_body && visual_->update()) same_rest = false;
   if (same_rest) {
     body_->adopt(theirs.edits);
   } else {
-    CuttableSurface body = uncutSurface(theirs.uncut);
+    CuttableBody body = uncutBody(theirs.uncut);
     body.adopt(theirs.edits);
     body_.emplace(std::move(body));
   }
   if (!same_body) resetInputs();
-  cuts_.publishEdits(*body_, {}, false);
+  publishEdits({}, false);
   if (theirs.edits.revision > 0) {
     ROS_INFO("taken over from the simulator: revision %u with %zu strokes of cuts", theirs.edits.revision,
              theirs.edits.in_force);
@@ -171,7 +186,7 @@ void SurfaceEditor::onRecordedCut(const softbody_msgs::CutConstPtr& message) {
 }
 
 void SurfaceEditor::makeRecordedCuts() {
-  while (body_ && !cuts_.isPending() && !recorded_cuts_.empty()) {
+  while (body_ && !pending_ && !recorded_cuts_.empty()) {
     const softbody_msgs::CutConstPtr message = recorded_cuts_.front();
     recorded_cuts_.pop_front();
     makeRecordedCut(*message);
@@ -204,7 +219,7 @@ MeshState SurfaceEditor::stateOrRest() const {
 bool SurfaceEditor::isReady(std::string* reason) const {
   if (!body_)
     *reason = "the volume's topology has not come yet";
-  else if (cuts_.isPending())
+  else if (pending_)
     *reason = "an earlier cut is still on its way";
   else
     return true;

@@ -32,7 +32,7 @@ SurfaceNode::SurfaceNode(ros::NodeHandle node, const ros::NodeHandle& private_no
       stamps_(node.resolveName(topics::kVolumeState), StampGate::Repeats::kAccepted),
       publisher_(node),
       cut_display_(node),
-      editor_(node, options_.body_frame, &visual_, options_.cutting, [this] { useWaitingTopology(); }),
+      editor_(node, options_.body_frame, &visual_, options_.cutting, [this] { useWaiting(false); }),
       services_(
           private_node, options_.body_frame, &editor_,
           [this](const CutPreview& preview) { cut_display_.startPreview(preview, editor_.body().volume()); }),
@@ -41,28 +41,36 @@ SurfaceNode::SurfaceNode(ros::NodeHandle node, const ros::NodeHandle& private_no
       live_parameters_(private_node, surfaceNodeParameters(), &options_,
                        [this](const SurfaceOptions& next) { diagnostics_.setLimits(next.limits); }) {
   edits_timeout_ = node.createWallTimer(
-      ros::WallDuration(kLongestWaitForEdits), [this](const ros::WallTimerEvent&) { onLateEdits(); }, true,
-      false);
+      ros::WallDuration(kLongestWaitForEdits),
+      [this](const ros::WallTimerEvent&) {
+        if (topology_subscriber_.getNumPublishers() == 0) waiting_topology_.reset();  // its sender has ended
+        useWaiting(true);
+      },
+      true, false);
   const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
   edits_subscriber_ = node.subscribe(topics::kVolumeCuts, 1, &SurfaceNode::onVolumeEdits, this, hints);
   topology_subscriber_ = node.subscribe(topics::kVolumeTopology, 1, &SurfaceNode::onTopology, this, hints);
   state_subscriber_ = node.subscribe(topics::kVolumeState, 1, &SurfaceNode::onState, this, hints);
 }
 
-void SurfaceNode::onTopology(const softbody_msgs::TetTopologyConstPtr& message) {
-  const softbody_msgs::TetTopologyConstPtr waited = std::exchange(waiting_topology_, nullptr);
-  try {
-    const bool is_published = updateStamp(*message);
-    if (!is_published) fromMessage(*message);  // throws if it is no topology
-    const bool same_body = editor_.onVolumeTopology(message->revision);
-    if (!same_body) startBody(*message);
-    if (!same_body || !is_published) useTopology(message, waited && sameTopology(*waited, *message));
-  } catch (const std::exception& error) {
-    ROS_ERROR_STREAM_THROTTLE(1.0, "the volume's topology of revision "
-                                       << message->revision << " is not used: " << error.what()
-                                       << "; rostopic info " << topology_subscriber_.getTopic()
-                                       << " names the sender");
-  }
+void SurfaceNode::onTopology(const softbody_msgs::TetTopologyConstPtr& message) try {
+  const bool is_published = updateStamp(*message);
+  if (!is_published) fromMessage(*message);  // throws if it is no topology
+  const auto waited = std::exchange(waiting_topology_, nullptr);
+  const bool same_body = editor_.onVolumeTopology(message->revision);
+  if (same_body && is_published) return;
+  if (!same_body) startBody(*message);
+  waiting_topology_ = message;
+  useWaiting(waited && sameTopology(*waited, *message));
+} catch (const std::exception& error) {
+  refuse(*message, error);
+}
+
+void SurfaceNode::refuse(const softbody_msgs::TetTopology& message, const std::exception& error) {
+  ROS_ERROR_STREAM_THROTTLE(1.0, "the volume's topology of revision "
+                                     << message.revision << " is not used: " << error.what()
+                                     << "; rostopic info " << topology_subscriber_.getTopic()
+                                     << " names the sender");
 }
 
 /// Topologies are sent again every second. @return whether this one is known; then only its stamp is new.
@@ -76,57 +84,54 @@ bool SurfaceNode::updateStamp(const softbody_msgs::TetTopology& message) {
   return false;
 }
 
+/// Uses the topology and the state that wait, if what they need has come.
 /// @param is_late the topology has waited already.
-void SurfaceNode::useTopology(const softbody_msgs::TetTopologyConstPtr& message, bool is_late) {
-  const bool is_known = editor_.started() && sameTets(editor_.body().volume(), *message);
-  if (!is_known && explanationMayCome(*message, is_late)) return waitForEdits(message);
-  // An edit is published together with its first state. A body that is not placed has no states.
-  const bool with_next_state = !is_known || editor_.placed();
-  if (!is_known) startBody(*message);
-  bind(message, with_next_state);
-  useWaitingState();
+void SurfaceNode::useWaiting(bool is_late) {
+  try {
+    if (waiting_topology_ && !bindWaiting(is_late)) return;
+  } catch (const std::exception& error) {
+    refuse(*waiting_topology_, error);
+  }
+  waiting_topology_.reset();
+  if (const softbody_msgs::MeshStateConstPtr state = std::exchange(waiting_state_, nullptr)) useState(state);
 }
 
-/// Whether edits could come that make the surface of a topology.
-bool SurfaceNode::explanationMayCome(const softbody_msgs::TetTopology& message, bool is_late) const {
-  if (!editor_.started() && message.revision == 0) return false;
-  if (edits_subscriber_.getNumPublishers() == 0) return !is_late;
-  if (!volume_edits_) return true;
-  // A simulator that has just started will take over the edits of the surface, or keep its own body.
-  const bool takes_over = volume_edits_->body == 0 && editor_.started() && editor_.body().edits().body != 0;
-  return takes_over || volume_edits_->revision != message.revision;
-}
-
-void SurfaceNode::waitForEdits(const softbody_msgs::TetTopologyConstPtr& message) {
-  ROS_WARN_THROTTLE(5.0, "waiting for the cuts that explain the volume's topology of revision %u",
-                    message->revision);
-  waiting_topology_ = message;
-  edits_timeout_.stop();
-  edits_timeout_.start();
-}
-
-void SurfaceNode::onLateEdits() {
-  if (topology_subscriber_.getNumPublishers() == 0) waiting_topology_.reset();  // its simulator has ended
-  if (const auto waiting = waiting_topology_) onTopology(waiting);
+/// Binds the surface to the topology that waits. An edit is published together with its first state; until
+/// then the earlier surface stays. A body that is not placed has no states.
+/// @return false if edits could come that explain the topology.
+bool SurfaceNode::bindWaiting(bool is_late) {
+  const softbody_msgs::TetTopology& message = *waiting_topology_;
+  const bool is_known = editor_.started() && sameTets(editor_.body().volume(), message);
+  const bool is_first = !editor_.started() && message.revision == 0;
+  if (!is_known && !is_first && (edits_subscriber_.getNumPublishers() > 0 || !is_late)) {
+    ROS_WARN_THROTTLE(5.0, "waiting for the cuts that explain the volume's topology of revision %u",
+                      message.revision);
+    edits_timeout_.stop();
+    edits_timeout_.start();
+    return false;
+  }
+  const bool with_next_state =
+      (!is_known || editor_.placed()) && binding_ && message.revision > binding_->volume->revision;
+  if (!is_known) startBody(message);
+  BoundSurface binding = bindTo(waiting_topology_, editor_.body().surface(), options_.body_frame);
+  if (with_next_state)
+    next_binding_ = std::move(binding);
+  else
+    setBinding(std::move(binding));
+  return true;
 }
 
 void SurfaceNode::onVolumeEdits(const softbody_msgs::CutHistoryConstPtr& message) {
   try {
     const auto scope = timer_.stage(kStage, true);
     editor_.onVolumeEdits(fromMessage(*message));
-    volume_edits_ = message;
   } catch (const std::exception& error) {
     ROS_ERROR_STREAM("the simulator's cuts up to revision "
                      << message->revision << " are not used: " << error.what() << "; rostopic info "
                      << edits_subscriber_.getTopic() << " names the sender");
     return;
   }
-  useWaitingTopology();
-}
-
-void SurfaceNode::useWaitingTopology() {
-  const softbody_msgs::TetTopologyConstPtr waiting = waiting_topology_;
-  if (waiting && editor_.started() && sameTets(editor_.body().volume(), *waiting)) onTopology(waiting);
+  useWaiting(false);
 }
 
 /// Starts with a body whose cuts are not known.
@@ -137,16 +142,6 @@ void SurfaceNode::startBody(const softbody_msgs::TetTopology& message) {
   }
   const auto scope = timer_.stage(kStage, true);
   editor_.start(fromMessage(message));
-}
-
-/// @param with_next_state publish a later revision together with its first state; until then the earlier
-/// surface stays.
-void SurfaceNode::bind(const softbody_msgs::TetTopologyConstPtr& message, bool with_next_state) {
-  BoundSurface binding = bindTo(message, editor_.body().surface(), options_.body_frame);
-  if (with_next_state && binding_ && message->revision > binding_->volume->revision)
-    next_binding_ = std::move(binding);
-  else
-    setBinding(std::move(binding));
 }
 
 void SurfaceNode::setBinding(BoundSurface binding) {
@@ -186,12 +181,6 @@ void SurfaceNode::useState(const softbody_msgs::MeshStateConstPtr& message) {
                                                      << " is not used: " << error.what() << "; rostopic info "
                                                      << state_subscriber_.getTopic() << " names the sender");
   }
-}
-
-/// The state may be of the topology that is published now, or of the next one.
-void SurfaceNode::useWaitingState() {
-  if (const softbody_msgs::MeshStateConstPtr waiting = std::exchange(waiting_state_, nullptr))
-    useState(waiting);
 }
 
 void SurfaceNode::publishState(const softbody_msgs::MeshState& volume) {

@@ -39,14 +39,10 @@ class SurfaceNode {
   void onState(const softbody_msgs::MeshStateConstPtr& message);
 
   bool updateStamp(const softbody_msgs::TetTopology& message);
-  void useTopology(const softbody_msgs::TetTopologyConstPtr& message, bool is_late);
-  bool explanationMayCome(const softbody_msgs::TetTopology& message, bool is_late) const;
-  void waitForEdits(const softbody_msgs::TetTopologyConstPtr& message);
-  void onLateEdits();
+  void refuse(const softbody_msgs::TetTopology& message, const std::exception& error);
+  void useWaiting(bool is_late);
+  bool bindWaiting(bool is_late);
   void startBody(const softbody_msgs::TetTopology& message);
-  void bind(const softbody_msgs::TetTopologyConstPtr& message, bool with_next_state);
-  void useWaitingTopology();
-  void useWaitingState();
   void setBinding(BoundSurface binding);
   void useState(const softbody_msgs::MeshStateConstPtr& message);
   void publishState(const softbody_msgs::MeshState& volume);
@@ -59,7 +55,6 @@ class SurfaceNode {
   CutDisplay cut_display_;
   std::optional<BoundSurface> binding_;                  ///< published
   std::optional<BoundSurface> next_binding_;             ///< of an edit that no state has come for yet
-  softbody_msgs::CutHistoryConstPtr volume_edits_;       ///< the last ones of the simulator
   softbody_msgs::TetTopologyConstPtr waiting_topology_;  ///< the edits that explain it have not come yet
   softbody_msgs::MeshStateConstPtr waiting_state_;       ///< its topology has not come yet
   // Last, so that callbacks end before the members that they use.

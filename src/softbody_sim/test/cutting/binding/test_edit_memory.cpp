@@ -2,10 +2,10 @@
 
 #include <random>
 
+#include "cutting/binding/body_history.h"
 #include "cutting/fixtures/cut_visual_body.h"
 #include "cutting/fixtures/same_topology.h"
-#include "cutting/volume/undo_versions.h"
-#include "softbody_sim/cutting/binding/cuttable_surface.h"
+#include "softbody_sim/cutting/binding/cuttable_body.h"
 #include "softbody_sim/dynamics/simulator.h"
 
 namespace softbody {
@@ -13,35 +13,33 @@ namespace {
 
 MeshState restOf(const TetTopology& volume) { return testing::stateOf(volume, volume.rest_vertices); }
 
-/// Simulator and surface with the same bound of the memory for undo.
+CuttingConfig configWith(double undo_memory_mb) {
+  CuttingConfig config;
+  config.undo_memory_mb = undo_memory_mb;
+  return config;
+}
+
+/// Surface, and a simulator that follows the tets of another process.
 struct Body {
   explicit Body(double undo_memory_mb)
-      : simulator(testing::sponge(), Material(), simulatorConfig(undo_memory_mb)),
-        surface(testing::visualSponge(), testing::sponge(), cuttingConfig(undo_memory_mb)) {}
+      : simulator(testing::sponge(), Material(), {}),
+        tets(testing::sponge(), configWith(undo_memory_mb), testing::followedBy(&simulator)),
+        surface(testing::visualSponge(), testing::sponge(), configWith(undo_memory_mb)) {}
 
-  static SimulatorConfig simulatorConfig(double undo_memory_mb) {
-    SimulatorConfig config;
-    config.undo_memory_mb = undo_memory_mb;
-    return config;
-  }
-  static CuttingConfig cuttingConfig(double undo_memory_mb) {
-    CuttingConfig config;
-    config.undo_memory_mb = undo_memory_mb;
-    return config;
-  }
   bool apply(const Cut& cut) {
     std::string reason;
     if (!surface.apply(cut, restOf(surface.volume()), &reason)) return false;
-    EXPECT_TRUE(simulator.apply(cut, &reason)) << reason;
+    tets.adopt(surface.edits());
     return true;
   }
   void adopt(const EditHistory& edits) {
-    simulator.adopt(edits);
+    tets.adopt(edits);
     surface.adopt(edits);
   }
+  std::size_t dropped() const { return tets.droppedVersions() + surface.droppedVersions(); }
 
   Simulator simulator;
-  CuttableSurface surface;
+  CuttableBody tets, surface;
 };
 
 using testing::expectSame;
@@ -61,8 +59,8 @@ void expectSame(const Body& a, const Body& b) {
                 .cwiseAbs()
                 .maxCoeff(),
             1e-9);
-  EXPECT_TRUE(sameEdits(a.simulator.edits(), b.simulator.edits()));
-  EXPECT_TRUE(sameEdits(a.simulator.edits(), a.surface.edits()));
+  EXPECT_TRUE(sameEdits(a.tets.edits(), b.tets.edits()));
+  EXPECT_TRUE(sameEdits(a.tets.edits(), a.surface.edits()));
 }
 
 /// Random edits of a body; strokes have one or more patches.
@@ -70,7 +68,7 @@ class RandomEdits {
  public:
   explicit RandomEdits(unsigned seed) : random_(seed), cuts_(sponge_, seed) {}
 
-  Cut next(const CuttableSurface& surface) {
+  Cut next(const CuttableBody& surface) {
     const int kind = std::uniform_int_distribution<int>(0, 9)(random_);
     if (kind == 0) return surface.edit(CutKind::kReset);
     if (kind <= 3) return surface.edit(CutKind::kUndo);
@@ -97,11 +95,10 @@ TEST(EditMemory, ABodyWithoutMemoryUndoesAndRedoesTheSame) {
       ASSERT_EQ(bounded.apply(cut), made) << "edit " << k;
       expectSame(whole, bounded);
       ASSERT_FALSE(HasFailure()) << "seed " << seed << ", edit " << k;
-      most_dropped =
-          std::max({most_dropped, bounded.simulator.droppedVersions(), bounded.surface.droppedVersions()});
+      most_dropped = std::max(most_dropped, bounded.dropped());
     }
-    EXPECT_EQ(whole.simulator.droppedVersions() + whole.surface.droppedVersions(), 0u);
-    EXPECT_GT(most_dropped, 2u);
+    EXPECT_EQ(whole.dropped(), 0u);
+    EXPECT_GT(most_dropped, 4u);
   }
 }
 
@@ -117,6 +114,21 @@ TEST(EditMemory, ABodyThatTakesOverAHistoryIsTheSame) {
     follower.adopt(whole.surface.edits());
     expectSame(whole, follower);
     ASSERT_FALSE(HasFailure()) << "edit " << k;
+  }
+}
+
+/// From any history to any other.
+TEST(EditMemory, ABodyTakesOverTheHistoryOfAnother) {
+  RandomEdits edits(8);
+  for (int round = 0; round < 8; ++round) {
+    Body one(1.0), other(1.0);
+    for (int k = 0; k < 3; ++k) one.apply(edits.next(one.surface));
+    other.adopt(one.surface.edits());
+    for (int k = 0; k < 8; ++k) one.apply(edits.next(one.surface));
+    for (int k = 0; k < round; ++k) other.apply(edits.next(other.surface));
+    one.adopt(other.surface.edits());
+    expectSame(one, other);
+    ASSERT_FALSE(HasFailure()) << "round " << round;
   }
 }
 
@@ -137,24 +149,21 @@ TEST(EditMemory, APlacedBodyKeepsItsPlaceWhenItTakesOverAHistory) {
 TEST(EditMemory, VersionsStayWithinTheirBound) {
   const TetTopology sponge = testing::sponge();
   testing::RandomCuts cuts(sponge, 6);
-  CutHistory history(sponge);
-  constexpr std::size_t kLimit = 200'000;
+  BodyHistory history(sponge, {});
+  constexpr CutLimits kLimits{0, 50'000};
   for (std::uint32_t stroke = 0; stroke < 25; ++stroke) {
-    history.cutOrAdvance(cuts.planeCut(), stroke);
-    dropVersions(kLimit, &history);
-    std::size_t used = 0;
-    const std::size_t present = history.edits().in_force;
-    for (std::size_t k = 1; k + 1 < present; ++k) used += history.has(k) ? history.bytes(k) : 0;
-    EXPECT_LE(used, kLimit);
-    EXPECT_TRUE(history.has(0) && history.has(present) && history.has(present - 1));
+    EditHistory edits = history.edits();
+    addEdit({edits.revision + 1, stroke, CutKind::kCut, cuts.planeCut()}, &edits);
+    history.adopt(edits, kLimits);
+    EXPECT_LE(history.droppableBytes(), kLimits.undo_bytes);
   }
-  EXPECT_GT(droppedVersions(history), 5u);
+  EXPECT_GT(history.droppedVersions(), 5u);
 }
 
 TEST(EditMemory, TooManyPiecesAreRefused) {
   CuttingConfig config;
   config.max_pieces = 2;
-  CuttableSurface surface(testing::visualSponge(), testing::sponge(), config);
+  CuttableBody surface(testing::visualSponge(), testing::sponge(), config);
   std::string reason;
   const auto plane = [&](double x) {
     return surface.separateCut(testing::planePatch({x, 0.05, 0.015}, {1.0, 0.1, 0.0}, 1.0));

@@ -8,8 +8,7 @@
 #include "cutting/blade/tet_stretch.h"
 #include "cutting/fixtures/surface_meshes.h"
 #include "cutting/fixtures/visual_sponge.h"
-#include "softbody_sim/cutting/binding/cuttable_surface.h"
-#include "softbody_sim/dynamics/simulator.h"
+#include "softbody_sim/cutting/binding/cuttable_body.h"
 
 namespace softbody {
 namespace {
@@ -50,8 +49,7 @@ struct Scene {
     return state;
   }
   bool tears(const Deformation& deformation, float deviation = 0.0f) {
-    last = surface.tear(stateOf(deformation, deviation));
-    return last.has_value();
+    return surface.tear(stateOf(deformation, deviation)).has_value();
   }
   std::size_t pieces() const { return testing::pieceVolumes(surface.surface().topology()).size(); }
   void expectSound() const {
@@ -61,8 +59,7 @@ struct Scene {
     EXPECT_GT(tetVolumes(volume.rest_vertices, volume.tets).minCoeff(), 0.0);
   }
 
-  CuttableSurface surface;
-  std::optional<Cut> last;
+  CuttableBody surface;
 };
 
 TEST(Tearing, TheStretchDecidesNotTheTurn) {
@@ -116,16 +113,6 @@ TEST(Tearing, AStretchedBarTearsIntoTwoClosedPieces) {
       EXPECT_LT(mesh.rest_vertices(v, 0), 0.12);
     }
   }
-}
-
-TEST(Tearing, TheSimulatorMakesTheSameTear) {
-  Scene scene(0.4);
-  Simulator simulator(testing::sponge(), Material(), {});
-  ASSERT_TRUE(scene.tears(stretchedMiddle(1.5)));
-  std::string reason;
-  ASSERT_TRUE(simulator.apply(*scene.last, &reason)) << reason;
-  EXPECT_EQ(simulator.topology().tets, scene.surface.volume().tets);
-  EXPECT_EQ(simulator.topology().rest_vertices, scene.surface.volume().rest_vertices);
 }
 
 TEST(Tearing, BelowTheLimitOrWithoutOneNothingTears) {

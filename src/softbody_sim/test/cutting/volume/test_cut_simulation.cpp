@@ -26,20 +26,36 @@ TargetSet atRest(const Simulator& simulator) {
   return targets;
 }
 
+/// A simulator that follows the tets of a body.
+struct CutSimulator {
+  explicit CutSimulator(const SimulatorConfig& config = {})
+      : simulator(testing::sponge(), Material(), config),
+        body(testing::sponge(), {}, testing::followedBy(&simulator)) {}
+
+  bool apply(const Cut& cut) {
+    std::string reason;
+    return body.apply(cut, {}, &reason);
+  }
+
+  Simulator simulator;
+  CuttableBody body;
+};
+
 /// Bent, and still moving, without loads that would go on acting.
-std::unique_ptr<Simulator> swinging() {
+std::unique_ptr<CutSimulator> swinging() {
   SimulatorConfig config;
   config.load_fade_s = 0.0;
-  auto simulator = std::make_unique<Simulator>(testing::sponge(), Material(), config);
-  TargetSet targets = atRest(*simulator);
-  simulator->step(targets, kFrame);
-  const TetTopology& topology = simulator->topology();
+  auto body = std::make_unique<CutSimulator>(config);
+  Simulator& simulator = body->simulator;
+  TargetSet targets = atRest(simulator);
+  simulator.step(targets, kFrame);
+  const TetTopology& topology = simulator.topology();
   Points bent = topology.rest_vertices;
   for (auto v : bent.rowwise()) v.z() += 3.0 * (v.x() - 0.1) * (v.x() - 0.1);
   targets.reset = false;
   targets.targets = testing::vertexTargets(topology, transformed(bent, testing::somePose()));
-  simulator->step(targets, 2 * kFrame);
-  return simulator;
+  simulator.step(targets, 2 * kFrame);
+  return body;
 }
 
 std::vector<int> verticesOfPiece(const TetTopology& topology, std::uint32_t piece) {
@@ -65,12 +81,11 @@ Eigen::Vector3d meanOfPiece(const TetTopology& topology, std::uint32_t piece, co
 }
 
 TEST(CutSimulation, NothingJumpsAtACutNorWhenItIsTakenBack) {
-  const std::unique_ptr<Simulator> swinging_body = swinging();
-  Simulator& simulator = *swinging_body;
+  const std::unique_ptr<CutSimulator> body = swinging();
+  Simulator& simulator = body->simulator;
   const TetTopology uncut = simulator.topology();
   const MeshState before = simulator.state();
-  std::string reason;
-  ASSERT_TRUE(simulator.apply(throughTheMiddle(), &reason)) << reason;
+  ASSERT_TRUE(body->apply(throughTheMiddle()));
   const TetTopology cut = simulator.topology();
   EXPECT_EQ(cut.revision, 1u);
   EXPECT_EQ(simulator.state().revision, 1u);
@@ -79,7 +94,7 @@ TEST(CutSimulation, NothingJumpsAtACutNorWhenItIsTakenBack) {
   EXPECT_LT(
       (simulator.state().vertices - applyBinding(places, before.vertices, uncut.tets)).cwiseAbs().maxCoeff(),
       1e-6);
-  ASSERT_TRUE(simulator.apply({2, 1, CutKind::kUndo, {}}, &reason)) << reason;
+  ASSERT_TRUE(body->apply({2, 1, CutKind::kUndo, {}}));
   EXPECT_EQ(simulator.topology().rest_vertices, uncut.rest_vertices);
   EXPECT_EQ(simulator.topology().tets, uncut.tets);
   EXPECT_EQ(simulator.state().vertices, before.vertices);
@@ -87,10 +102,9 @@ TEST(CutSimulation, NothingJumpsAtACutNorWhenItIsTakenBack) {
 }
 
 TEST(CutSimulation, MotionGoesOn) {
-  const std::unique_ptr<Simulator> one = swinging(), other = swinging();
-  Simulator &cut = *one, &whole = *other;
-  std::string reason;
-  ASSERT_TRUE(cut.apply(throughTheMiddle(), &reason)) << reason;
+  const std::unique_ptr<CutSimulator> one = swinging(), other = swinging();
+  Simulator &cut = one->simulator, &whole = other->simulator;
+  ASSERT_TRUE(one->apply(throughTheMiddle()));
   const Points start = whole.state().vertices;
   TargetSet none;
   whole.step(none, 3 * kFrame);
@@ -103,10 +117,10 @@ TEST(CutSimulation, MotionGoesOn) {
 }
 
 TEST(CutSimulation, PiecesMoveOnTheirOwn) {
-  Simulator simulator(testing::sponge(), Material(), {});
+  const auto body = std::make_unique<CutSimulator>();
+  Simulator& simulator = body->simulator;
   simulator.step(atRest(simulator), kFrame);
-  std::string reason;
-  ASSERT_TRUE(simulator.apply(throughTheMiddle(), &reason)) << reason;
+  ASSERT_TRUE(body->apply(throughTheMiddle()));
   const TetTopology& topology = simulator.topology();
   const std::vector<int> moved = verticesOfPiece(topology, 0), still = verticesOfPiece(topology, 1);
   ASSERT_FALSE(still.empty());
@@ -128,7 +142,8 @@ TEST(CutSimulation, PiecesMoveOnTheirOwn) {
 
 /// Estimated loads of a body pulled at both ends are balanced over the whole body, not over its halves.
 TEST(CutSimulation, PiecesOfAStretchedBodyDoNotFlyApart) {
-  Simulator simulator(testing::sponge(), Material(), {});
+  const auto body = std::make_unique<CutSimulator>();
+  Simulator& simulator = body->simulator;
   simulator.step(atRest(simulator), kFrame);
   const TetTopology uncut = simulator.topology();
   Points stretched = uncut.rest_vertices;
@@ -136,8 +151,7 @@ TEST(CutSimulation, PiecesOfAStretchedBodyDoNotFlyApart) {
   TargetSet targets;
   targets.targets = testing::vertexTargets(uncut, transformed(stretched, testing::somePose()));
   for (int k = 2; k < 22; ++k) simulator.step(targets, k * kFrame);
-  std::string reason;
-  ASSERT_TRUE(simulator.apply(throughTheMiddle(), &reason)) << reason;
+  ASSERT_TRUE(body->apply(throughTheMiddle()));
   const Points before = simulator.state().vertices;
   TargetSet none;
   none.revision = 1;
@@ -148,10 +162,10 @@ TEST(CutSimulation, PiecesOfAStretchedBodyDoNotFlyApart) {
 }
 
 TEST(CutSimulation, APieceThatIsNoLongerSeenComesToRest) {
-  Simulator simulator(testing::sponge(), Material(), {});
+  const auto body = std::make_unique<CutSimulator>();
+  Simulator& simulator = body->simulator;
   simulator.step(atRest(simulator), kFrame);
-  std::string reason;
-  ASSERT_TRUE(simulator.apply(throughTheMiddle(), &reason)) << reason;
+  ASSERT_TRUE(body->apply(throughTheMiddle()));
   const TetTopology& topology = simulator.topology();
   const std::vector<int> hidden = verticesOfPiece(topology, 1);
   TargetSet targets;
@@ -175,13 +189,13 @@ TEST(CutSimulation, APieceThatIsNoLongerSeenComesToRest) {
 }
 
 TEST(CutSimulation, TargetsOfTheRevisionBeforeAreStillUnderstood) {
-  Simulator simulator(testing::sponge(), Material(), {});
+  const auto body = std::make_unique<CutSimulator>();
+  Simulator& simulator = body->simulator;
   simulator.step(atRest(simulator), kFrame);
   const TetTopology uncut = simulator.topology();
   const Points goal =
       transformed(uncut.rest_vertices, Eigen::Translation3d(0.02, 0.0, 0.01) * testing::somePose());
-  std::string reason;
-  ASSERT_TRUE(simulator.apply(throughTheMiddle(), &reason)) << reason;
+  ASSERT_TRUE(body->apply(throughTheMiddle()));
   TargetSet late;
   late.revision = 0;
   late.targets = testing::vertexTargets(uncut, goal);
@@ -189,22 +203,18 @@ TEST(CutSimulation, TargetsOfTheRevisionBeforeAreStillUnderstood) {
   EXPECT_LT((simulator.state().vertices.topRows(goal.rows()) - goal).cwiseAbs().maxCoeff(), 2e-3);
   for (std::uint32_t revision = 2; revision < 12; ++revision) {
     const CutKind kind = revision % 2 == 0 ? CutKind::kUndo : CutKind::kRedo;
-    ASSERT_TRUE(simulator.apply({revision, 1, kind, {}}, &reason)) << reason;
+    ASSERT_TRUE(body->apply({revision, 1, kind, {}}));
   }
   EXPECT_THROW(simulator.step(late, 12 * kFrame), std::invalid_argument);
 }
 
-TEST(CutSimulation, AResetBeginsUncutAndOtherRevisionsAreRefused) {
-  const std::unique_ptr<Simulator> swinging_body = swinging();
-  Simulator& simulator = *swinging_body;
+TEST(CutSimulation, AResetBeginsUncutAndEditsOfOtherTetsAreRefused) {
+  const std::unique_ptr<CutSimulator> body = swinging();
+  Simulator& simulator = body->simulator;
+  ASSERT_TRUE(body->apply(throughTheMiddle()));
   std::string reason;
-  EXPECT_FALSE(simulator.apply(throughTheMiddle(2), &reason));
-  EXPECT_EQ(reason, "its revision is 2, but the body is at revision 0");
-  EXPECT_FALSE(simulator.apply({1, 1, CutKind::kUndo, {}}, &reason));
-  ASSERT_TRUE(simulator.apply(throughTheMiddle(), &reason)) << reason;
-  EXPECT_THROW(
-      simulator.apply({2, 2, CutKind::kCut, {Points::Zero(1, 3), Triangles::Constant(1, 3, 4)}}, &reason),
-      std::invalid_argument);
+  CuttableBody other(testing::sponge(), {}, testing::followedBy(&simulator));
+  EXPECT_THROW(other.apply(throughTheMiddle(), {}, &reason), std::invalid_argument);
   EXPECT_EQ(simulator.topology().revision, 1u);
   simulator.reset();
   EXPECT_EQ(simulator.topology().revision, 0u);

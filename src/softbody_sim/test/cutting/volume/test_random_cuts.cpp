@@ -7,7 +7,6 @@
 
 #include "cage/volume_maker.h"
 #include "cutting/fixtures/cut_bodies.h"
-#include "cutting/volume/cut_history.h"
 #include "cutting/volume/manifold.h"
 #include "fixtures/model_files.h"
 #include "softbody_sim/io/surface_files.h"
@@ -76,10 +75,8 @@ bool isParted(const TetTopology& after, const RandomCuts::Plane& plane) {
 
 void cutByPlane(const TetTopology& body, RandomCuts* cuts, Tally* tally) {
   const RandomCuts::Plane plane = cuts->plane();
-  CutHistory history(body);
-  std::string reason;
-  const auto edit =
-      history.cut(testing::planePatch(plane.point, plane.normal, 2.0 * cuts->size()), 1, &reason);
+  testing::CutTets history(body);
+  const auto edit = history.cut(testing::planePatch(plane.point, plane.normal, 2.0 * cuts->size()), 1);
   if (!edit) {
     ++tally->missed;
     return;
@@ -89,12 +86,11 @@ void cutByPlane(const TetTopology& body, RandomCuts* cuts, Tally* tally) {
 }
 
 void cutBySweep(const TetTopology& body, RandomCuts* cuts, Tally* tally) {
-  CutHistory history(body);
-  std::string reason;
+  testing::CutTets history(body);
   bool any = false;
   for (const CutPatch& patch : cuts->sweep(5)) {
     const TetTopology before = history.topology();
-    const auto edit = history.cut(patch, 1, &reason);
+    const auto edit = history.cut(patch, 1);
     if (!edit) continue;
     expectSound(*edit, before, tally);
     any = true;
@@ -103,11 +99,10 @@ void cutBySweep(const TetTopology& body, RandomCuts* cuts, Tally* tally) {
 }
 
 void cutRepeatedly(const TetTopology& body, RandomCuts* cuts, Tally* tally) {
-  CutHistory history(body);
-  std::string reason;
+  testing::CutTets history(body);
   for (std::uint32_t stroke = 0; stroke < 5; ++stroke) {
     const TetTopology before = history.topology();
-    const auto edit = history.cut(cuts->planeCut(), stroke, &reason);
+    const auto edit = history.cut(cuts->planeCut(), stroke);
     if (edit) expectSound(*edit, before, tally);
     ++(edit ? tally->made : tally->missed);
   }

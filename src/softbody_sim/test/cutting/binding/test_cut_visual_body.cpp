@@ -16,14 +16,14 @@ using testing::planePatch;
 using testing::stateOf;
 using testing::worstJump;
 
-TEST(SurfaceHistory, CutsWithoutAJump) {
+TEST(CutVisualBody, CutsWithoutAJump) {
   CutBody body;
   const Points before = body.shown();
   const CutPatch patch = planePatch({0.093, 0.05, 0.015}, {1.0, 0.3, 0.1}, 1.0);
-  std::vector<bool> accounted = testing::cornersOfCrossedTriangles(body.surface.surface().topology(), patch);
+  std::vector<bool> accounted = testing::cornersOfCrossedTriangles(body.surface().topology(), patch);
   ASSERT_TRUE(body.cut(patch, 1));
   const Points after = body.shown();
-  const MeshTopology& mesh = body.surface.surface().topology();
+  const MeshTopology& mesh = body.surface().topology();
   for (Eigen::Index v = 0; v < after.rows(); ++v) {
     const int parent = mesh.vertex_parents[static_cast<std::size_t>(v)];
     if (parent < 0) continue;
@@ -37,15 +37,15 @@ TEST(SurfaceHistory, CutsWithoutAJump) {
 
 /// Largest elongation of an edge of the mesh when the pieces of tets are moved apart [m].
 double stretchWhenApart(const CutBody& body, double distance) {
-  const TetTopology& tets = body.tets.topology();
+  const TetTopology& tets = body.tets();
   Points apart = tets.rest_vertices;
   for (Eigen::Index t = 0; t < tets.tets.rows(); ++t) {
     for (const int v : tets.tets.row(t)) {
       apart(v, 2) = tets.rest_vertices(v, 2) + distance * tets.tet_pieces[static_cast<std::size_t>(t)];
     }
   }
-  const Points shown = body.surface.surface().apply(stateOf(tets, apart)).vertices;
-  const MeshTopology& mesh = body.surface.surface().topology();
+  const Points shown = body.surface().apply(stateOf(tets, apart)).vertices;
+  const MeshTopology& mesh = body.surface().topology();
   double worst = 0.0;
   for (const auto& triangle : mesh.triangles.rowwise()) {
     for (int k = 0; k < 3; ++k) {
@@ -57,22 +57,21 @@ double stretchWhenApart(const CutBody& body, double distance) {
   return worst;
 }
 
-TEST(SurfaceHistory, PiecesDoNotMixAtRandomCuts) {
+TEST(CutVisualBody, PiecesDoNotMixAtRandomCuts) {
   const TetTopology sponge = testing::sponge();
   testing::RandomCuts cuts(sponge, 5);
   int parted = 0, counts_differ = 0;
   for (int k = 0; k < 80; ++k) {
     CutBody body;
     if (!body.cut(cuts.planeCut(), 1)) continue;
-    const auto& pieces = body.tets.topology().tet_pieces;
-    const auto& visual = body.surface.surface().topology().triangle_pieces;
+    const auto& pieces = body.tets().tet_pieces;
+    const auto& visual = body.surface().topology().triangle_pieces;
     const auto tet_pieces = *std::max_element(pieces.begin(), pieces.end()) + 1;
     const auto visual_pieces = *std::max_element(visual.begin(), visual.end()) + 1;
     parted += tet_pieces > 1;
     counts_differ += tet_pieces != visual_pieces;
     EXPECT_LT(stretchWhenApart(body, 0.05), kRounding) << k;
-    EXPECT_LT((body.atRest() - body.surface.surface().topology().rest_vertices).cwiseAbs().maxCoeff(),
-              kRounding);
+    EXPECT_LT((body.atRest() - body.surface().topology().rest_vertices).cwiseAbs().maxCoeff(), kRounding);
   }
   EXPECT_EQ(counts_differ, 0);
   EXPECT_GT(parted, 40);
@@ -126,7 +125,7 @@ Points opened(const TetTopology& tets, const Eigen::Vector3d& center, const Eige
   return vertices;
 }
 
-TEST(SurfaceHistory, SlitsOpenWithTheirTets) {
+TEST(CutVisualBody, SlitsOpenWithTheirTets) {
   const TetTopology sponge = testing::sponge();
   testing::RandomCuts cuts(sponge, 7);
   constexpr double kMargin = 0.04;  // larger than the edge of a tet
@@ -137,9 +136,9 @@ TEST(SurfaceHistory, SlitsOpenWithTheirTets) {
     CutBody body;
     if (!body.cut(halfPlane(center, normal, way), 1)) continue;
     ++slits;
-    const MeshTopology& mesh = body.surface.surface().topology();
-    const Points vertices = opened(body.tets.topology(), center, normal, way, kMargin);
-    const Points shown = body.surface.surface().apply(stateOf(body.tets.topology(), vertices)).vertices;
+    const MeshTopology& mesh = body.surface().topology();
+    const Points vertices = opened(body.tets(), center, normal, way, kMargin);
+    const Points shown = body.surface().apply(stateOf(body.tets(), vertices)).vertices;
     const std::vector<int> sides = sidesOf(mesh, center, normal);
     for (Eigen::Index v = 0; v < shown.rows(); ++v) {
       const double behind = way.dot(center - mesh.rest_vertices.row(v).transpose()) - kMargin;
@@ -155,18 +154,18 @@ TEST(SurfaceHistory, SlitsOpenWithTheirTets) {
   EXPECT_LE(other_side, checked / 1000);
 }
 
-TEST(SurfaceHistory, StrokesGoOnWithoutAJump) {
+TEST(CutVisualBody, StrokesGoOnWithoutAJump) {
   const TetTopology sponge = testing::sponge();
   testing::RandomCuts cuts(sponge, 9);
   int steps = 0;
   for (int k = 0; k < 20; ++k) {
     CutBody body;
     for (const CutPatch& patch : cuts.sweep(6)) {
-      const MeshTopology mesh = body.surface.surface().topology();
+      const MeshTopology mesh = body.surface().topology();
       const Points shown = body.shown();
       if (!body.cut(patch, 1)) continue;
       ++steps;
-      const MeshTopology& after = body.surface.surface().topology();
+      const MeshTopology& after = body.surface().topology();
       EXPECT_LT(worstJump(shown, mesh, body.shown(), after), 1e-9) << "stroke " << k;
       EXPECT_LT((body.atRest() - after.rest_vertices).cwiseAbs().maxCoeff(), kRounding);
       // The body continues to move during the cut.
@@ -176,52 +175,49 @@ TEST(SurfaceHistory, StrokesGoOnWithoutAJump) {
   EXPECT_GT(steps, 50);
 }
 
-TEST(SurfaceHistory, FollowsAffineDeformationsExactly) {
+TEST(CutVisualBody, FollowsAffineDeformationsExactly) {
   CutBody body;
-  body.vertices = body.tets.topology().rest_vertices;
+  body.vertices = body.tets().rest_vertices;
   ASSERT_TRUE(body.cut(planePatch({0.093, 0.05, 0.015}, {1.0, 0.3, 0.1}, 1.0), 1));
   ASSERT_TRUE(body.cut(planePatch({0.1, 0.05, 0.015}, {0.1, 1.0, 0.1}, 1.0), 2));
   Eigen::Matrix3d A;
   A << 1.2, 0.3, -0.1, 0.0, 0.8, 0.2, 0.1, -0.2, 1.1;
-  const TetTopology& tets = body.tets.topology();
-  const VisualSurface& surface = body.surface.surface();
+  const TetTopology& tets = body.tets();
+  const VisualSurface& surface = body.surface();
   const Points shown = surface.apply(stateOf(tets, tets.rest_vertices * A.transpose())).vertices;
   EXPECT_LT((shown - surface.topology().rest_vertices * A.transpose()).cwiseAbs().maxCoeff(), 1e-7);
 }
 
 /// Compares everything except the revision.
-TEST(SurfaceHistory, UndoesFiveCutsBitForBitAndRedoesThem) {
+TEST(CutVisualBody, UndoesFiveCutsBitForBitAndRedoesThem) {
   CutBody body;
-  std::vector<VisualSurface> surfaces{body.surface.surface()};
+  std::vector<VisualSurface> surfaces{body.surface()};
   std::vector<Points> states{body.vertices}, shown{body.shown()};
   const TetTopology sponge = testing::sponge();
   testing::RandomCuts cuts(sponge, 11);
   for (std::uint32_t stroke = 1; surfaces.size() < 6; ++stroke) {
     if (!body.cut(cuts.planeCut(), stroke)) continue;
-    surfaces.push_back(body.surface.surface());
+    surfaces.push_back(body.surface());
     states.push_back(body.vertices);
     shown.push_back(body.shown());
   }
   const auto expectVersion = [&](std::size_t version) {
-    EXPECT_EQ(body.surface.surface().topology().revision, body.tets.topology().revision);
+    EXPECT_EQ(body.surface().topology().revision, body.tets().revision);
     body.vertices = states[version];
-    testing::expectSame(body.surface.surface().topology(), surfaces[version].topology());
+    testing::expectSame(body.surface().topology(), surfaces[version].topology());
     EXPECT_EQ(body.shown(), shown[version]);
   };
   for (std::size_t version = 5; version-- > 0;) {
-    body.tets.undo();
-    EXPECT_TRUE(body.surface.undo(body.tets.topology().revision));
+    EXPECT_TRUE(body.apply(CutKind::kUndo));
     expectVersion(version);
   }
-  EXPECT_FALSE(body.surface.undo(99));
+  EXPECT_FALSE(body.apply(CutKind::kUndo));
   for (std::size_t version = 1; version <= 5; ++version) {
-    body.tets.redo();
-    EXPECT_TRUE(body.surface.redo(body.tets.topology().revision));
+    EXPECT_TRUE(body.apply(CutKind::kRedo));
     expectVersion(version);
   }
-  EXPECT_FALSE(body.surface.redo(99));
-  body.tets.reset();
-  EXPECT_TRUE(body.surface.reset(body.tets.topology().revision));
+  EXPECT_FALSE(body.apply(CutKind::kRedo));
+  EXPECT_TRUE(body.apply(CutKind::kReset));
   expectVersion(0);
 }
 

@@ -3,6 +3,8 @@
 #include <set>
 
 #include "cutting/fixtures/blade_scene.h"
+#include "cutting/fixtures/cut_visual_body.h"
+#include "cutting/fixtures/same_topology.h"
 
 namespace softbody {
 namespace {
@@ -10,7 +12,7 @@ namespace {
 using testing::bladeAt;
 using testing::Scene;
 
-TEST(CuttableSurface, TwoStrokesThatCrossLeaveFourPiecesAndAreUndoneOneByOne) {
+TEST(CuttableBody, TwoStrokesThatCrossLeaveFourPiecesAndAreUndoneOneByOne) {
   Scene scene;
   const TetTopology uncut = scene.surface.volume();
   scene.sweep(0.05, -0.006, 3e-4, 0.005);
@@ -25,7 +27,6 @@ TEST(CuttableSurface, TwoStrokesThatCrossLeaveFourPiecesAndAreUndoneOneByOne) {
   for (const std::size_t pieces : {2u, 1u}) {
     const Cut undo = scene.surface.edit(CutKind::kUndo);
     ASSERT_TRUE(scene.surface.apply(undo, scene.simulator.state(), &reason)) << reason;
-    ASSERT_TRUE(scene.simulator.apply(undo, &reason)) << reason;
     scene.checkAgreement();
     EXPECT_EQ(scene.visualPieces(), pieces);
   }
@@ -36,13 +37,12 @@ TEST(CuttableSurface, TwoStrokesThatCrossLeaveFourPiecesAndAreUndoneOneByOne) {
   EXPECT_EQ(reason, "there is no cut to undo");
 }
 
-TEST(CuttableSurface, ABladeThatIsInTheBodyDuringAnUndoDoesNotMakeItsCutAgain) {
+TEST(CuttableBody, ABladeThatIsInTheBodyDuringAnUndoDoesNotMakeItsCutAgain) {
   Scene scene;
   scene.sweep(0.05, 0.01, 0.0, 0.0);
   const Cut undo = scene.surface.edit(CutKind::kUndo);
   std::string reason;
   ASSERT_TRUE(scene.surface.apply(undo, scene.simulator.state(), &reason)) << reason;
-  ASSERT_TRUE(scene.simulator.apply(undo, &reason)) << reason;
   const int cuts = scene.cuts;
   scene.sweep(0.01, 0.009, 5e-4, 0.0);
   scene.sweep(0.009, 0.05, 0.0, 0.0);
@@ -51,7 +51,7 @@ TEST(CuttableSurface, ABladeThatIsInTheBodyDuringAnUndoDoesNotMakeItsCutAgain) {
   EXPECT_GT(scene.cuts, cuts) << "the blade does not cut when it returns";
 }
 
-TEST(CuttableSurface, APreviewChangesNothingAndGivesThePieces) {
+TEST(CuttableBody, APreviewChangesNothingAndGivesThePieces) {
   Scene scene;
   const CutPreview preview =
       scene.surface.preview(testing::planePatch({0.06, 0.05, 0.015}, {1.0, 0.0, 0.0}, 1.0));
@@ -67,7 +67,7 @@ TEST(CuttableSurface, APreviewChangesNothingAndGivesThePieces) {
 }
 
 /// An exception between the edits of tets and mesh: the state for the binding is incomplete.
-TEST(CuttableSurface, AnEditThatFailsHalfwayChangesNothing) {
+TEST(CuttableBody, AnEditThatFailsHalfwayChangesNothing) {
   Scene scene;
   scene.sweep(0.05, 0.012, 0.0, 0.0);
   const TetTopology tets = scene.surface.volume();
@@ -81,39 +81,60 @@ TEST(CuttableSurface, AnEditThatFailsHalfwayChangesNothing) {
   EXPECT_EQ(scene.surface.volume().tets, tets.tets);
   EXPECT_EQ(scene.surface.surface().topology().triangles, mesh.triangles);
   ASSERT_TRUE(scene.surface.apply(cut, scene.simulator.state(), &reason)) << reason;
-  ASSERT_TRUE(scene.simulator.apply(cut, &reason)) << reason;
   scene.checkAgreement();
   EXPECT_EQ(scene.visualPieces(), 2u);
 }
 
-TEST(CuttableSurface, CutsThatTheSimulatorDoesNotMakeAreRolledBack) {
+TEST(CuttableBody, AnEditThatTheFollowerCannotMakeChangesNothing) {
+  bool fails = false;
+  CuttableBody body(testing::visualSponge(), testing::sponge(), {}, [&fails](const TetEdits&) {
+    if (fails) throw std::runtime_error("cannot follow");
+  });
+  const auto apply = [&body](const Cut& cut) {
+    std::string reason;
+    return body.apply(cut, testing::stateOf(body.volume(), body.volume().rest_vertices), &reason);
+  };
+  const auto plane = [&body](double x) {
+    return body.separateCut(testing::planePatch({x, 0.05, 0.015}, {1.0, 0.1, 0.0}, 1.0));
+  };
+  ASSERT_TRUE(apply(plane(0.05)));
+  const TetTopology tets = body.volume();
+  const MeshTopology mesh = body.surface().topology();
+  fails = true;
+  EXPECT_THROW(apply(plane(0.1)), std::runtime_error);
+  EXPECT_THROW(apply(body.edit(CutKind::kUndo)), std::runtime_error);
+  EXPECT_THROW(body.adopt({}), std::runtime_error);
+  EXPECT_EQ(body.edits().strokes.size(), 1u);
+  EXPECT_EQ(body.volume().revision, tets.revision);
+  EXPECT_EQ(body.surface().topology().revision, tets.revision);
+  testing::expectSame(body.volume(), tets);
+  testing::expectSame(body.surface().topology(), mesh);
+  fails = false;
+  EXPECT_TRUE(apply(plane(0.1)));
+}
+
+TEST(CuttableBody, AnEditThatIsTakenBackHasNeverBeenMade) {
   Scene scene;
-  scene.sweep(0.05, 0.012, 0.0, 0.0);  // a stroke of several cuts, all confirmed
-  scene.surface.confirm(scene.surface.volume().revision);
+  scene.sweep(0.05, 0.012, 0.0, 0.0);  // a stroke of several cuts
   const TetTopology tets = scene.surface.volume();
   const MeshTopology mesh = scene.surface.surface().topology();
   const Points shown = scene.surface.surface().apply(scene.simulator.state()).vertices;
-  MeshState state = scene.simulator.state();
+  scene.follows = false;
   std::string reason;
-  for (const double x : {0.03, 0.06}) {
-    const Cut cut = scene.surface.separateCut(testing::planePatch({x, 0.05, 0.015}, {1.0, 0.1, 0.0}, 1.0));
-    state.revision = scene.surface.volume().revision;
-    state.vertices = scene.surface.volume().rest_vertices;
-    state.confidence.assign(static_cast<std::size_t>(state.vertices.rows()), 1.0f);
-    state.standard_deviation.clear();
-    ASSERT_TRUE(scene.surface.apply(cut, state, &reason)) << reason;
+  for (int k = 0; k < 2; ++k) {
+    const Cut cut = scene.surface.separateCut(testing::planePatch({0.03, 0.05, 0.015}, {1.0, 0.1, 0.0}, 1.0));
+    ASSERT_TRUE(scene.surface.apply(cut, scene.simulator.state(), &reason)) << reason;
+    scene.surface.takeBack();
+    scene.surface.takeBack();
+    scene.checkAgreement();
+    testing::expectSame(scene.surface.volume(), tets);
+    testing::expectSame(scene.surface.surface().topology(), mesh);
+    EXPECT_EQ(scene.surface.surface().apply(scene.simulator.state()).vertices, shown);
   }
-  EXPECT_FALSE(scene.surface.rollBack(tets.revision - 1)) << "that is confirmed";
-  EXPECT_FALSE(scene.surface.rollBack(tets.revision + 3));
-  EXPECT_EQ(scene.surface.volume().revision, tets.revision + 2);
-  ASSERT_TRUE(scene.surface.rollBack(tets.revision));
-  scene.checkAgreement();
-  EXPECT_EQ(scene.surface.volume().rest_vertices, tets.rest_vertices);
-  EXPECT_EQ(scene.surface.surface().topology().rest_vertices, mesh.rest_vertices);
-  EXPECT_EQ(scene.surface.surface().apply(scene.simulator.state()).vertices, shown);
+  scene.follows = true;
   scene.sweep(0.012, 0.05, 0.0, 0.0);
   scene.sweep(0.05, -0.006, 0.0, 0.0);
-  EXPECT_EQ(scene.visualPieces(), 2u) << "nothing can be cut after a cut was rolled back";
+  EXPECT_EQ(scene.visualPieces(), 2u) << "nothing can be cut after a cut was taken back";
 }
 
 }  // namespace

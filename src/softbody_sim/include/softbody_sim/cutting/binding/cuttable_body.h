@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -7,6 +8,7 @@
 
 #include "softbody_common/cutting/edit_history.h"
 #include "softbody_sim/cutting/cutting_config.h"
+#include "softbody_sim/cutting/tet_edits.h"
 #include "softbody_sim/interpolation/visual_surface.h"
 
 namespace softbody {
@@ -18,16 +20,24 @@ struct CutPreview {
   MeshTopology pieces;          ///< the visual mesh after the cut; empty if the cut is impossible
 };
 
-/// The visual mesh of a body that is cut, and the tets that it is bound to. A cut is made if the visual mesh
-/// can be cut. The coarser tets follow it as far as possible. A simulator that gets the same cuts has the
-/// same tets.
-class CuttableSurface {
+/// A body that is cut: its tets, its visual mesh, the binding of the mesh to the tets, and the history of the
+/// edits. An edit changes all of them and the follower, or nothing. A cut is made if the visual mesh can be
+/// cut; the coarser tets follow it as far as possible. A body without a visual mesh is cut if its tets can be
+/// cut. Bodies that get the same edits have the same tets.
+class CuttableBody {
  public:
+  /// Another model of the body, which follows the tets, for example a simulator. It is called before an edit
+  /// is in force. If it throws, the edit is not made.
+  using Follower = std::function<void(const TetEdits&)>;
+
   /// @throw std::invalid_argument if the volume's surface is not closed.
-  CuttableSurface(const MeshTopology& visual, const TetTopology& volume, const CuttingConfig& config = {});
-  ~CuttableSurface();
-  CuttableSurface(CuttableSurface&&) noexcept;
-  CuttableSurface& operator=(CuttableSurface&&) noexcept;
+  CuttableBody(const MeshTopology& visual, const TetTopology& volume, const CuttingConfig& config = {},
+               Follower follower = {});
+  /// Without a visual mesh: surface(), preview(), follow() and tear() must not be called.
+  explicit CuttableBody(const TetTopology& volume, const CuttingConfig& config = {}, Follower follower = {});
+  ~CuttableBody();
+  CuttableBody(CuttableBody&&) noexcept;
+  CuttableBody& operator=(CuttableBody&&) noexcept;
 
   const VisualSurface& surface() const;
   const TetTopology& volume() const;
@@ -52,9 +62,6 @@ class CuttableSurface {
   /// @throw std::invalid_argument if the stroke is too long, or the cut would leave too many pieces.
   std::optional<Cut> follow(const Points& blade, const MeshState& volume, Nanoseconds stamp);
 
-  /// To be called when the blade is not seen.
-  void lift();
-
   /// Tears overstretched material; to be called with every state. @return the cut that was made, if any. A
   /// tear is a separate stroke. It never leaves a piece smaller than 1 % of the body. @param volume its
   /// state. If its revision differs, nothing tears. @param targets that led to this state: they say where the
@@ -66,19 +73,15 @@ class CuttableSurface {
   /// Undo, redo or reset, for apply().
   Cut edit(CutKind kind) const;
 
-  /// Makes a cut. If it returns false, with a `reason`, or throws, nothing has changed. @param volume state
-  /// of the volume before the cut; in this state the cut does not move the visual mesh. @throw
+  /// Makes an edit. If it returns false, with a `reason`, or throws, nothing has changed. @param volume state
+  /// of the volume before the edit; in this state the edit does not move the visual mesh. @throw
   /// std::invalid_argument if the patch is not an oriented surface, or the cut would leave
-  /// too many pieces.
+  /// too many pieces; and what the follower throws.
   bool apply(const Cut& cut, const MeshState& volume, std::string* reason);
 
-  /// To be called when the simulator has reached this revision. It frees the memory of earlier revisions, so
-  /// rollBack can no longer return to them.
-  void confirm(std::uint32_t revision);
-
-  /// Removes the cuts after the revision that the simulator has reached, as if they had never been made.
-  /// @return false, without any change, if the revision is in the future or earlier than a confirmed one.
-  bool rollBack(std::uint32_t revision);
+  /// Takes back the last edit, as if it had never been made: a simulator elsewhere has not made it. Nothing
+  /// if there is none, or after adopt(). The follower is not told.
+  void takeBack();
 
   /// The result of separateCut(patch). @throw std::invalid_argument as apply.
   CutPreview preview(const TriangleMesh& patch) const;

@@ -2,12 +2,12 @@
 
 #include "cutting/fixtures/cut_bodies.h"
 #include "cutting/fixtures/same_topology.h"
-#include "cutting/volume/cut_history.h"
 #include "cutting/volume/manifold.h"
 
 namespace softbody {
 namespace {
 
+using testing::CutTets;
 using testing::expectSame;
 using testing::RandomCuts;
 
@@ -40,15 +40,14 @@ void expectPlacesKept(const TetEdit& edit, const TetTopology& before) {
   }
 }
 
-TEST(CutHistory, FiveCutsAndBackAndForthAgain) {
+TEST(CutTets, FiveCutsAndBackAndForthAgain) {
   for (const TetTopology& body : {testing::sponge(), testing::torusVolume()}) {
-    CutHistory history(body);
+    CutTets history(body);
     RandomCuts cuts(body, 5);
     std::vector<TetTopology> versions{body};
-    std::string reason;
     for (std::uint32_t stroke = 1; versions.size() <= 5; ++stroke) {
       const TetTopology before = history.topology();
-      const auto edit = history.cut(cuts.planeCut(), stroke, &reason);
+      const auto edit = history.cut(cuts.planeCut(), stroke);
       if (!edit) continue;
       expectPlacesKept(*edit, before);
       EXPECT_EQ(nonManifoldVertices(history.topology().surface), std::vector<int>());
@@ -57,88 +56,72 @@ TEST(CutHistory, FiveCutsAndBackAndForthAgain) {
     std::uint32_t revision = history.topology().revision;
     for (std::size_t v = 5; v-- > 0;) {
       const TetTopology before = history.topology();
-      const auto edit = history.undo();
-      ASSERT_TRUE(edit.has_value());
+      const auto edit = history.apply(CutKind::kUndo);
+      ASSERT_TRUE(edit);
       expectSame(history.topology(), versions[v]);
       EXPECT_EQ(history.topology().revision, ++revision);
       EXPECT_EQ(edit->topology.revision, revision);
     }
-    EXPECT_FALSE(history.undo().has_value());
+    EXPECT_FALSE(history.apply(CutKind::kUndo));
     for (std::size_t v = 1; v <= 5; ++v) {
       const TetTopology before = history.topology();
-      const auto edit = history.redo();
-      ASSERT_TRUE(edit.has_value());
+      const auto edit = history.apply(CutKind::kRedo);
+      ASSERT_TRUE(edit);
       expectSame(history.topology(), versions[v]);
       EXPECT_EQ(history.topology().revision, ++revision);
       expectPlacesKept(*edit, before);
     }
-    EXPECT_FALSE(history.redo().has_value());
-    ASSERT_TRUE(history.reset().has_value());
+    EXPECT_FALSE(history.apply(CutKind::kRedo));
+    ASSERT_TRUE(history.apply(CutKind::kReset));
     expectSame(history.topology(), body);
-    ASSERT_TRUE(history.redo().has_value());
+    ASSERT_TRUE(history.apply(CutKind::kRedo));
     expectSame(history.topology(), versions[1]);
   }
 }
 
-TEST(CutHistory, AStrokeOfManyStepsIsOneUndoStep) {
+TEST(CutTets, AStrokeOfManyStepsIsOneUndoStep) {
   const TetTopology sponge = testing::sponge();
-  CutHistory history(sponge);
-  std::string reason;
+  CutTets history(sponge);
   std::size_t edits = 0;
   for (int step = 0; step < 8; ++step) {
     Points before(2, 3), now(2, 3);
     before << 0.11, 0.02 * step - 0.01, -0.1, 0.11, 0.02 * step - 0.01, 0.1;
     now << 0.11, 0.02 * step + 0.01, -0.1, 0.11, 0.02 * step + 0.01, 0.1;
-    edits += history.cut(ruledPatch(before, now), 7, &reason) ? 1 : 0;
+    edits += history.cut(ruledPatch(before, now), 7) ? 1 : 0;
   }
   EXPECT_GT(edits, 3u);
   EXPECT_EQ(history.topology().tet_pieces.back(), 1u);
   const TetTopology halves = history.topology();
-  ASSERT_TRUE(history.undo().has_value());
+  ASSERT_TRUE(history.apply(CutKind::kUndo));
   expectSame(history.topology(), sponge);
-  const auto again = history.redo();
-  ASSERT_TRUE(again.has_value());
+  const auto again = history.apply(CutKind::kRedo);
+  ASSERT_TRUE(again);
   expectSame(history.topology(), halves);
   expectPlacesKept(*again, sponge);
 }
 
-TEST(CutHistory, ABladeDrawnBackThroughItsSlitCutsNothing) {
+TEST(CutTets, ABladeDrawnBackThroughItsSlitCutsNothing) {
   const TetTopology sponge = testing::sponge();
-  CutHistory history(sponge);
-  std::string reason;
+  CutTets history(sponge);
   Points edges[5];
   for (int k = 0; k < 5; ++k) {
     edges[k].resize(2, 3);
     edges[k] << 0.11, 0.015 * k - 0.005, -0.1, 0.11, 0.015 * k - 0.005, 0.1;
   }
-  for (int k = 0; k < 4; ++k) history.cut(ruledPatch(edges[k], edges[k + 1]), 1, &reason);
+  for (int k = 0; k < 4; ++k) history.cut(ruledPatch(edges[k], edges[k + 1]), 1);
   const TetTopology slit = history.topology();
-  for (int k = 4; k > 0; --k) EXPECT_FALSE(history.cut(ruledPatch(edges[k], edges[k - 1]), 1, &reason)) << k;
+  for (int k = 4; k > 0; --k) EXPECT_FALSE(history.cut(ruledPatch(edges[k], edges[k - 1]), 1)) << k;
   expectSame(history.topology(), slit);
 }
 
-TEST(CutHistory, PreviewChangesNothing) {
-  const TetTopology sponge = testing::sponge();
-  CutHistory history(sponge);
-  std::string reason;
-  const CutPatch patch = testing::planePatch({0.1, 0.05, 0.01}, {1.0, 0.2, 0.1}, 1.0);
-  const auto seen = history.preview(patch, 1, &reason);
-  ASSERT_TRUE(seen.has_value());
-  expectSame(history.topology(), sponge);
-  EXPECT_EQ(history.topology().revision, 0u);
-  ASSERT_TRUE(history.cut(patch, 1, &reason).has_value());
-  expectSame(history.topology(), seen->topology);
-}
-
-TEST(CutHistory, RefusesAPatchThatIsNone) {
-  CutHistory history(testing::sponge());
-  std::string reason;
+TEST(CutTets, RefusesAPatchThatIsNone) {
+  CutTets history(testing::sponge());
   CutPatch patch = testing::planePatch({0.1, 0.05, 0.01}, {1.0, 0.0, 0.0}, 1.0);
   patch.triangles(0, 1) = 17;
-  EXPECT_THROW(history.cut(patch, 1, &reason), std::invalid_argument);
+  EXPECT_THROW(history.cut(patch, 1), std::invalid_argument);
   patch.triangles(0, 1) = 1;
   patch.vertices(0, 0) = std::nan("");
-  EXPECT_THROW(history.cut(patch, 1, &reason), std::invalid_argument);
+  EXPECT_THROW(history.cut(patch, 1), std::invalid_argument);
 }
 
 }  // namespace
