@@ -41,7 +41,8 @@ class ReplayTest : public ::testing::Test {
     ResultBag result(&bag, "/softbody");
     std::vector<FrameOutput> frames;
     const auto use = [&](const RgbdFrame& frame, const std_msgs::Header& header, double) {
-      if (frames.empty()) result.writeTopologies(pipeline, header.stamp);
+      if (frames.empty())
+        result.writeTopologies(pipeline.volumeTopology(), pipeline.surfaceTopology(), header.stamp);
       frames.push_back(pipeline.process(frame));
       result.writeFrame(frames.back(), header);
     };

@@ -25,7 +25,7 @@ class ResultBag {
 
   /// Writes both topologies, latched. Call it before the first state of a revision, and again every second.
   /// Their stamp stays that of the revision's first frame.
-  void writeTopologies(const Pipeline& pipeline, const ros::Time& stamp);
+  void writeTopologies(const TetTopology& volume, const MeshTopology& surface, const ros::Time& stamp);
   /// @param frame_id of targets and states; empty (default): the frame of the images.
   void setOutputFrame(std::string frame_id) { output_frame_ = std::move(frame_id); }
   /// @param blade of the tracked tool, in the tool's frame [m].

@@ -96,7 +96,7 @@ void BodyRun::write(const FrameOutput& result, const std_msgs::Header& header) {
   count(result);
   const double since_s = secondsBetween(topologies_written_, header.stamp);
   if (since_s < 0.0 || since_s >= kTopologyPeriod_s || !result.cuts.empty()) {
-    output_.writeTopologies(pipeline_, header.stamp);
+    output_.writeTopologies(pipeline_.volumeTopology(), pipeline_.surfaceTopology(), header.stamp);
     topologies_written_ = header.stamp;
   }
   output_.writeFrame(result, header);

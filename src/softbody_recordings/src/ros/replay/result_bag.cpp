@@ -29,17 +29,17 @@ void ResultBag::write(const std::string& topic, Message message, const std_msgs:
   bag_->write(topic, header.stamp, message);
 }
 
-void ResultBag::writeTopologies(const Pipeline& pipeline, const ros::Time& stamp) {
-  const std::uint32_t revision = pipeline.volumeTopology().revision;
-  if (revision_stamp_.isZero() || revision != revision_) revision_stamp_ = stamp;
-  revision_ = revision;
-  softbody_msgs::TetTopology volume = toMessage(pipeline.volumeTopology());
-  volume.header.frame_id = body_frame_;
-  volume.header.stamp = revision_stamp_;
-  bag_->writeLatched(topic(topics::kVolumeTopology), stamp, volume);
-  softbody_msgs::MeshTopology surface = toMessage(pipeline.surfaceTopology());
-  surface.header = volume.header;
-  bag_->writeLatched(topic(topics::kSurfaceTopology), stamp, surface);
+void ResultBag::writeTopologies(const TetTopology& volume, const MeshTopology& surface,
+                                const ros::Time& stamp) {
+  if (revision_stamp_.isZero() || volume.revision != revision_) revision_stamp_ = stamp;
+  revision_ = volume.revision;
+  softbody_msgs::TetTopology tets = toMessage(volume);
+  tets.header.frame_id = body_frame_;
+  tets.header.stamp = revision_stamp_;
+  bag_->writeLatched(topic(topics::kVolumeTopology), stamp, tets);
+  softbody_msgs::MeshTopology mesh = toMessage(surface);
+  mesh.header = tets.header;
+  bag_->writeLatched(topic(topics::kSurfaceTopology), stamp, mesh);
 }
 
 void ResultBag::writeTransform(const Eigen::Isometry3d& pose, const std::string& child,
