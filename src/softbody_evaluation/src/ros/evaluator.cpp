@@ -14,7 +14,7 @@
 #include "report/metrics.h"
 #include "report/report_folder.h"
 #include "report/report_json.h"
-#include "report/report_text.h"
+#include "report/summary_text.h"
 #include "ros/force_reader.h"
 #include "ros/frame_change.h"
 #include "ros/label_reader.h"
@@ -191,7 +191,7 @@ Report evaluate(const EvaluatorOptions& options) {
   const Measured measured = measure(options);
   if (!options.report_folder.empty()) {
     const std::string page = htmlPage({judged(options.result, measured)}, tableRows(measured.report),
-                                      toText(measured.report), measured.pictures);
+                                      detailsText(measured.report), measured.pictures);
     writeReportFolder(options.report_folder, toJson(measured.report), page, measured.pictures);
   }
   return measured.report;
@@ -206,8 +206,8 @@ Comparison evaluateBoth(const EvaluatorOptions& options, const std::string& othe
   Comparison comparison{first.report, other.report};
   if (!options.report_folder.empty()) {
     const std::vector<ComparedMetric> rows = compare(first.report, other.report);
-    const std::string text =
-        options.result + "\n" + toText(first.report) + "\n" + other_result + "\n" + toText(other.report);
+    const std::string text = options.result + "\n" + detailsText(first.report) + "\n" + other_result + "\n" +
+                             detailsText(other.report);
     const std::string page =
         htmlPage({judged(options.result, first), judged(other_result, other)}, rows, text, first.pictures);
     writeReportFolder(options.report_folder, toJson(comparison), page, first.pictures);

@@ -12,7 +12,6 @@
 
 #include "fixtures/evaluator_bags.h"
 #include "report/report_json.h"
-#include "report/report_text.h"
 #include "softbody_common/files/input_file.h"
 
 namespace softbody::evaluation {

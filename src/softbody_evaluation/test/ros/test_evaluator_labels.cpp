@@ -5,7 +5,6 @@
 
 #include "fixtures/evaluator_bags.h"
 #include "report/report_json.h"
-#include "report/report_text.h"
 
 namespace softbody::evaluation {
 namespace {
@@ -50,7 +49,6 @@ TEST(Evaluator, ComparesLabelsWithTheTrueOnes) {
   EXPECT_EQ(labels["background"], 1.0);
   EXPECT_EQ(labels["occluder"], 0.0);
   EXPECT_LT(labels["right"], 1.0);
-  EXPECT_TRUE(says(toText(body_only), ", occluder 0.00 %, body 100.00 %; 10 frames"));
 }
 
 TEST(Evaluator, HasNoLabelsWithoutThoseOfBothBags) {

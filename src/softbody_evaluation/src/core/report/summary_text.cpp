@@ -6,6 +6,7 @@
 #include <set>
 #include <sstream>
 
+#include "report/units.h"
 #include "report/verdict.h"
 
 namespace softbody::evaluation {
@@ -26,6 +27,14 @@ std::string row(const Metric& metric) {
   const Level level = levelOf(metric.name, metric.value);
   const std::string mark = level == Level::kGood ? "" : fmt::format("   <- {}", toText(level));
   return line(metric.name, value, metric.unit, limitsOf(metric.name) + mark);
+}
+
+std::string row(const ResidualReport& r) {
+  return fmt::format(
+      "  {:>5}-{:<5} {:>8} {:>10} {:>9.2f} {:>9.2f} {:>9.1f} {:>9.1f} {:>9.1f} {:>9.1f} {:>9.1f}\n",
+      r.first_frame, r.first_frame + r.frames - (r.frames > 0), r.answered, r.residual.count,
+      mm(r.residual.median), mm(r.residual.p95), 100.0 * r.within_10mm, 100.0 * r.within_15mm,
+      100.0 * r.within_15mm_of_measured, 100.0 * r.occluded_share, 100.0 * r.without_depth_share);
 }
 
 /// Lines of at most kWidth characters. @param bullet before the first one; the others are as far inside.
@@ -60,6 +69,22 @@ std::string summaryTable(const Report& report) {
   for (const Metric& metric : metrics(report)) {
     if (kAskedFor.count(metric.name) > 0 || !limitsOf(metric.name).empty()) text += row(metric);
   }
+  return text;
+}
+
+std::string residualTable(const Report& report) {
+  if (!report.residual) return {};
+  std::string text =
+      fmt::format("depth residual\n  {:<11} {:>8} {:>10} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}\n",
+                  "frames", "answered", "pixels", "median mm", "p95 mm", "<=10mm %", "<=15mm %", "strict %",
+                  "occluded%", "no depth%");
+  for (const ResidualReport& window : report.residual_windows) text += row(window);
+  return text + row(*report.residual);
+}
+
+std::string detailsText(const Report& report) {
+  std::string text = residualTable(report);
+  for (const std::string& note : report.notes) text += "note: " + note + "\n";
   return text;
 }
 

@@ -10,7 +10,6 @@
 #include "report/metrics.h"
 #include "report/model_report.h"
 #include "report/report_json.h"
-#include "report/report_text.h"
 #include "report/summary_text.h"
 #include "softbody_common/tools/camera_options.h"
 #include "softbody_common/tools/run_tool.h"
