@@ -1,26 +1,18 @@
-"""The methods that `make paper` compares, as parameters of `replay`."""
-import re
-
-from pages import ROOT
-
+"""The methods that `make paper` compares: texts of parameters of `replay`, or command lines of `paper_method`."""
 OURS = "ours"
-PAPER_FILE = ROOT / "config/paper.yaml"
+PAPER = "paper_method"  # the program of softbody_evaluation
 PLAIN = {"lbfgs_history": 0, "strain_smoothing": 0.0, "volume_smoothing": 0.0, "load_fade_s": 0.0, "memory_s": 0.0}
 UNSMOOTHED_FEM = {"solver": "fem", "strain_smoothing": 0.0, "volume_smoothing": 0.0}
 SPRINGS = {**UNSMOOTHED_FEM, "elasticity": "springs"}
-LINEAR_FEM = {"solver": "fem", "iterations": 1, "load_fade_s": 0.0, "memory_s": 0.0}
 TIMED = {"sponge": "bend", "doll": "doll_bend"}
 CUT_THROUGH = ("cut", "doll_cut")
 TEAR = "tear"
 SCENES = ("bend", "push", "doll_bend", "doll_push")
 MOST_FEATURES = 1000  # the default of max_features
 FEATURES = (0, 10, 25, 50, 100, 300, MOST_FEATURES)
-FEWEST_OF_PAPER = 50  # the least that target_mode knn accepts
-FEATURES_ALONE = {"depth_targets": "false"}
+FEWEST_OF_PAPER = 50  # with fewer, most vertices have no feature within delta_k
+FEATURES_ALONE = {"depth_weight": 1e-6, "outline_weight": 0.0}
 
-FRAMES = re.compile(r"feature_matching: frames.*")
-
-# Text of a parameter file by method.
 AS_WRITTEN = "as written: ORB between frames, eq. 3-4, no simulation"
 WITH_PD = "the same, plain projective dynamics (eq. 10-11)"
 WRITTEN_WITH_PD = "as written, plain projective dynamics"
@@ -33,22 +25,13 @@ def parameters(tracker=None, simulator=None):
                    for name, values in sections.items() if values)
 
 
-def paper_tracker():
-    """The section of the tracker in config/paper.yaml."""
-    return re.search(r"^feature_tracker:\n(?: .*\n)+", PAPER_FILE.read_text(), re.MULTILINE)[0]
-
-
 def compared():
     """The methods of the table of accuracy."""
-    def by_patches(text):
-        return FRAMES.sub("feature_matching: patches", text)
-
-    return {AS_WRITTEN: PAPER_FILE.read_text(),
-            WITH_PD: paper_tracker() + parameters(simulator=PLAIN),
-            WITH_FEM: paper_tracker() + parameters(simulator=LINEAR_FEM),
-            "our features, eq. 3-4, no simulation": by_patches(PAPER_FILE.read_text()),
-            "our features, eq. 3-4, plain projective dynamics":
-            by_patches(paper_tracker()) + parameters(simulator=PLAIN),
+    return {AS_WRITTEN: PAPER,
+            WITH_PD: f"{PAPER} --shape pd",
+            WITH_FEM: f"{PAPER} --shape fem",
+            "our features, eq. 3-4, no simulation": f"{PAPER} --own-features",
+            "our features, eq. 3-4, plain projective dynamics": f"{PAPER} --own-features --shape pd",
             OURS: ""}
 
 
@@ -60,9 +43,7 @@ def timed_kinds():
 def parts():
     """The parts of our method, one added after the other; the last row is ours."""
     no_loads = {"load_fade_s": 0.0, "memory_s": 0.0}
-    return {"ORB between frames as material points, plain projective dynamics":
-            parameters({**FEATURES_ALONE, "feature_matching": "frames"}, PLAIN),
-            "+ patches and the prediction instead of ORB": parameters(FEATURES_ALONE, PLAIN),
+    return {"features as material points, plain projective dynamics": parameters(FEATURES_ALONE, PLAIN),
             "+ L-BFGS": parameters(FEATURES_ALONE, {**no_loads, "strain_smoothing": 0.0, "volume_smoothing": 0.0}),
             "+ smoothed strains": parameters(FEATURES_ALONE, no_loads),
             "+ loads": parameters(FEATURES_ALONE),
@@ -82,10 +63,6 @@ def counts():
     """Limits of the number of features, for our tracker and for the paper's."""
     ours = {f"ours, at most {limit}": parameters({"max_features": limit}) if limit != MOST_FEATURES else ""
             for limit in FEATURES}
-    papers = {f"{WRITTEN_WITH_PD}, at most {limit}": limited(limit) for limit in FEATURES if limit >= FEWEST_OF_PAPER}
+    papers = {f"{WRITTEN_WITH_PD}, at most {limit}": f"{PAPER} --shape pd --max-features {limit}"
+              for limit in FEATURES if limit >= FEWEST_OF_PAPER}
     return {**ours, **papers}
-
-
-def limited(limit):
-    """The paper's method with plain projective dynamics and this many features."""
-    return re.sub(r"max_features: \d+", f"max_features: {limit}", paper_tracker()) + parameters(simulator=PLAIN)

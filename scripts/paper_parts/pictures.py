@@ -2,7 +2,7 @@
 import shutil
 
 from pages import ROOT
-from paper_parts.methods import PAPER_FILE, TEAR
+from paper_parts.methods import PAPER, TEAR
 from paper_parts.runs import BOARD, FOLDER, Run
 from tools import tool
 
@@ -13,7 +13,7 @@ TRACKED = ("bend", "push", "pull", "doll_bend", "doll_push", "doll_pull", "doll_
 AS_WRITTEN, WRITTEN = ("bend", "push", "doll_push"), "_as_written"
 FILMED, TEXTURE_OF_FILM = ("touch", "doll_touch", "cut", "tear"), "sponge"
 NEEDED = {**{scene: Run(scene) for scene in TRACKED},
-          **{scene + WRITTEN: Run(scene, PAPER_FILE.read_text()) for scene in AS_WRITTEN},
+          **{scene + WRITTEN: Run(scene, PAPER) for scene in AS_WRITTEN},
           **{f"film_{scene}": Run(scene, texture=TEXTURE_OF_FILM) for scene in FILMED}}
 RUNS = list(NEEDED.values())
 

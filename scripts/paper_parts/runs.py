@@ -7,7 +7,7 @@ from evaluation.runs import object_of, tool_of
 from pages import ROOT
 from paper_parts.counts import counts, tear_times
 from paper_parts.cut_quality import cut_quality
-from paper_parts.methods import CUT_THROUGH, TEAR
+from paper_parts.methods import CUT_THROUGH, PAPER, TEAR
 from tools import OUTPUT, evaluate, perform, tool
 
 FOLDER = OUTPUT / "paper"
@@ -18,10 +18,10 @@ COARSE_VERTICES = "128"
 
 
 class Run(typing.NamedTuple):
-    """One scene, tracked with one text of parameters."""
+    """One scene, tracked by one method."""
 
     scene: str
-    text: str = ""
+    text: str = ""     # of methods.py
     model: str = ""    # empty: the shipped object
     texture: str = ""  # of the recorded body; empty: that of the virtual camera
 
@@ -65,12 +65,8 @@ def record(scene, texture):
 def measure(number, run, recording, keep):
     """The report of one run."""
     name = f"{run.scene}_{number}"
-    parameters, result = FOLDER / f"{name}.yaml", FOLDER / f"{name}_result.bag"
-    parameters.write_text(run.text)
-    config = FOLDER / COARSE / "object.yaml" if run.model else object_of(run.scene)
-    knife = BOARD_TOOL if run.scene == BOARD else tool_of(run.scene)
-    tool("replay", recording, "--object", config, "--output", result, "--timing", *knife,
-         *(("--parameters", parameters) if run.text else ()))
+    result = FOLDER / f"{name}_result.bag"
+    track(run, recording, FOLDER / f"{name}.yaml", result)
     report = {**evaluate(result, "--truth", recording), "recording": str(recording), "result": str(result),
               **counts(result)}
     if run.scene in CUT_THROUGH:
@@ -81,6 +77,19 @@ def measure(number, run, recording, keep):
     if not keep:
         result.unlink()
     return report
+
+
+def track(run, recording, parameters, result):
+    """Writes the result of a run, and its parameters."""
+    config = FOLDER / COARSE / "object.yaml" if run.model else object_of(run.scene)
+    files = recording, "--object", config, "--output", result
+    if run.text.startswith(PAPER):
+        program, *options = run.text.split()
+        tool(program, *files, *options, package="development/softbody_evaluation")
+        return
+    parameters.write_text(run.text)
+    knife = BOARD_TOOL if run.scene == BOARD else tool_of(run.scene)
+    tool("replay", *files, "--timing", *knife, *(("--parameters", parameters) if run.text else ()))
 
 
 def peer_runs():

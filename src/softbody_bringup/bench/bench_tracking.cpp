@@ -140,8 +140,8 @@ struct PassResult {
 /// The features alone, without depth and outline, and optical flow of the same ones.
 void passOfFeatures(const Recording& recording, Times* times) {
   TrackerConfig config;
-  config.use_depth = false;
-  config.outline.weight = 0.0;
+  config.depth_weight = 1e-6;
+  config.outline_weight = 0.0;
   BodyTracker tracker(config);
   tracker.setTopologies(recording.volume, recording.surface);
   std::vector<TrackedFeature> features;

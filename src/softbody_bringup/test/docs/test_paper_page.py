@@ -53,7 +53,7 @@ class PaperPage(unittest.TestCase):
     def test_the_tables_are_read(self):
         self.assertGreater(len(self.rows), 40)
         self.assertTrue(all(len(row) == 4 for row in self.rows))
-        self.assertIn(("max_neighbors", None), [found for row in self.rows for found in paper_page.parameters(row)])
+        self.assertIn(("max_features", None), [found for row in self.rows for found in paper_page.parameters(row)])
 
     def test_every_link_leads_somewhere(self):
         pages = [f"{ROOT}/README.md", *glob.glob(f"{ROOT}/docs/**/*.md", recursive=True)]

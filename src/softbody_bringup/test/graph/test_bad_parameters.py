@@ -22,11 +22,11 @@ class BadParameters(unittest.TestCase):
             self.assertIn(word, output)
 
     def test_camera_ingest(self):
-        self.check("softbody_tracking", "camera_ingest", {"queue_size": 0}, ["/camera_ingest/queue_size", "0"])
+        self.check("softbody_tracking", "camera_ingest", {"max_depth_m": 0}, ["/camera_ingest/max_depth_m", "0"])
 
     def test_feature_tracker(self):
-        self.check("softbody_tracking", "feature_tracker", {"target_mode": "magic"},
-                   ["/feature_tracker/target_mode", "magic", "knn"])
+        self.check("softbody_tracking", "feature_tracker", {"search": "magic"},
+                   ["/feature_tracker/search", "magic", "anywhere"])
 
     def test_feature_tracker_that_waits_for_masks_for_ever(self):
         self.check("softbody_tracking", "feature_tracker", {"use_mask": "true", "mask_timeout_s": 60},

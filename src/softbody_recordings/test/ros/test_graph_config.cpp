@@ -27,11 +27,11 @@ class GraphConfigTest : public ::testing::Test {
 
 TEST_F(GraphConfigTest, ReadsEachNodesSection) {
   const GraphConfig config = read(
-      "camera_ingest: {sync: exact, depth_scale: 0.00025}\n"
+      "camera_ingest: {sync_tolerance_s: 0, depth_scale: 0.00025}\n"
       "simulator: {iterations: 7, free_run_rate_hz: 0}\n"
       "surface: {min_advance_m: 0.004}\n"
       "tool_tracker:\n");
-  EXPECT_TRUE(config.pairing.exact);
+  EXPECT_EQ(config.pairing.tolerance, 0);
   EXPECT_EQ(config.depth_scale, 0.00025);
   EXPECT_EQ(config.pipeline.simulator.iterations, 7);
   EXPECT_EQ(config.pipeline.cutting.min_advance_m, 0.004);
@@ -67,7 +67,7 @@ TEST_F(GraphConfigTest, NamesKeysThatTheNodeDoesNotKnow) {
 
 TEST_F(GraphConfigTest, KnowsWhatOnlyALiveGraphUses) {
   read(
-      "camera_ingest: {queue_size: 5, voxel_size_m: 0.01, silence_timeout_s: 3, image_transport: raw}\n"
+      "camera_ingest: {voxel_size_m: 0.01, silence_timeout_s: 3, color_transport: raw}\n"
       "feature_tracker: {body_frame: b, mask_timeout_s: 0.2, tf_timeout_s: 0.1}\n"
       "pose_marker: {frame: world}\n"
       "simulator: {object: x.yaml, body_frame: b, free_run_rate_hz: 30, stall_timeout_s: 1}\n"

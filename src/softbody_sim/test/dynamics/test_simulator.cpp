@@ -270,20 +270,5 @@ TEST(Simulator, PriorsAreNoObservation) {
   }
 }
 
-TEST(Simulator, WithoutSimulationOnlyTargetedSurfaceVerticesMove) {
-  const TetTopology topology = sponge();
-  SimulatorConfig config;
-  config.simulate = false;
-  Simulator simulator(topology, Material(), config);
-  simulator.step(placing(somePose()), 0);
-  const Points placed = simulator.state().vertices;
-  Points goal = placed;
-  goal.row(17) += Eigen::RowVector3d(0.01, 0.02, 0.03);
-  TargetSet targets;
-  targets.targets = {vertexTargets(topology, goal)[17]};
-  simulator.step(targets, kFrame);
-  EXPECT_LT(largestDistance(simulator.state().vertices, goal), 1e-15);
-}
-
 }  // namespace
 }  // namespace softbody

@@ -9,9 +9,8 @@ namespace softbody {
 namespace {
 
 TEST(SimulatorConfig, ReadsItsParametersAndNamesWhatIsOutOfRange) {
-  Parameters good(YAML::Load("{simulate: false, iterations: 7, gravity_m_s2: [0, 9.81, 0]}"), "/simulator/");
+  Parameters good(YAML::Load("{iterations: 7, gravity_m_s2: [0, 9.81, 0]}"), "/simulator/");
   const SimulatorConfig config = simulatorParameters().read(good);
-  EXPECT_FALSE(config.simulate);
   EXPECT_EQ(config.iterations, 7);
   EXPECT_EQ(config.gravity.y(), 9.81);
   EXPECT_TRUE(good.unknown().empty());

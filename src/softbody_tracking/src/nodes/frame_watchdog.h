@@ -16,7 +16,7 @@ namespace softbody {
 class FrameWatchdog {
  public:
   /// @param timeout_s longest time without a frame.
-  explicit FrameWatchdog(double timeout_s) : timeout_s_(timeout_s) {}
+  explicit FrameWatchdog(double timeout_s = 2.0) : timeout_s_(timeout_s) {}
 
   /// Call it when a frame arrives, and again when it has been processed.
   void frameArrived() {

@@ -37,36 +37,19 @@ ParameterTable<MaskOptions> maskTable() {
   return table;
 }
 
-constexpr Range kSilence_s{0.1, 3600.0};
-constexpr char kSilenceMeaning[] = "time without a frame before the node says so";
-
-ParameterTable<WatchLimits> watchTable() {
-  ParameterTable<WatchLimits> table;
-  table.group("camera_ingest");
-  table.number("silence_timeout_s", &WatchLimits::silence_timeout_s, kSilence_s, "s", kSilenceMeaning);
-  table.number("latency_limit_s", &WatchLimits::latency_s, {0.0, 3600.0}, "s",
-               "frames that are complete later after their stamp: the node warns that the clocks differ",
-               Change::kLive);
-  table.number("lead_limit_s", &WatchLimits::lead_s, {0.0, 3600.0}, "s",
-               "stamps that are ahead of this machine's clock by more: the node warns that the clocks differ",
-               Change::kLive);
-  return table;
-}
-
 ParameterTable<CameraIngestOptions> makeCameraIngestNodeTable() {
   using Options = CameraIngestOptions;
   constexpr double kLongestUnit_m = 1.0;  // no camera measures in larger ones
   ParameterTable<Options> table;
   table.group("camera_ingest");
   table.part(&Options::pairing, pairingParameters());
-  table.part(&Options::limits, watchTable());
+  table.number("silence_timeout_s", &Options::silence_timeout_s, {0.1, 3600.0}, "s",
+               "time without a frame before the node says so; more for a camera that starts late");
   table.number("depth_scale", &Options::depth_scale, {0.0, kLongestUnit_m}, "m",
                "metres of one unit of depth; 0: 0.001 for 16UC1, 1 for 32FC1");
   table.part(&Options::ingest, cameraIngestParameters());
   table.number("voxel_size_m", &Options::voxel_size_m, {0.0, 1.0}, "m",
                "thins `points`; 0: one point per pixel", Change::kLive);
-  table.text("image_transport", &Options::image_transport, "default of the next two").allowed =
-      "any installed";
   for (const auto& [name, member, stream] :
        {std::tuple("color_transport", &Options::color_transport, "colour"),
         std::tuple("depth_transport", &Options::depth_transport, "depth")}) {
@@ -74,7 +57,6 @@ ParameterTable<CameraIngestOptions> makeCameraIngestNodeTable() {
                                            std::string("transport of ") + stream +
                                                "; compressed and compressedDepth are decoded here. auto: raw "
                                                "if somebody publishes raw images, or else what is published");
-    row.initial = "that of image_transport";
     row.allowed = "auto, raw, compressed, compressedDepth, any installed";
   }
   return table;
@@ -94,7 +76,6 @@ ParameterTable<FeatureTrackerOptions> makeFeatureTrackerNodeTable() {
   table.group("prediction");
   table.text("body_frame", &Options::body_frame, "child frame of the body's pose on /tf").initial =
       ownFrameText("softbody");
-  table.number("silence_timeout_s", &Options::silence_timeout_s, kSilence_s, "s", kSilenceMeaning);
   table.part(&Options::mask, maskTable());
   table.group("known surfaces");
   table.texts("known_surfaces", &Options::known_surfaces,
@@ -119,7 +100,6 @@ ParameterTable<ToolTrackerOptions> makeToolTrackerNodeTable() {
   table.part(&Options::output_frame,
              outputFrameTable("tool_tracker", "frame in which the motion is predicted",
                               ", and for the tool's frame"));
-  table.number("silence_timeout_s", &Options::silence_timeout_s, kSilence_s, "s", kSilenceMeaning);
   return table;
 }
 

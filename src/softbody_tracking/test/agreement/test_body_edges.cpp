@@ -4,13 +4,11 @@
 
 #include "registration/box_mesh.h"
 #include "softbody_common/geometry/rigid_fit.h"
-#include "softbody_tracking/tracker_config.h"
 
 namespace softbody {
 namespace {
 
 constexpr double kTable = 0.6;  // [m]
-const double kScale = RegistrationConfig().distance_scale_m;
 
 /// The box flat on a table, seen from above; its upper side is 0.04 m nearer.
 Eigen::Isometry3d onTable(double x = 0.0) {
@@ -24,25 +22,25 @@ RgbdFrame boxOnTable() {
 }
 
 TEST(ShareWithoutEdge, IsSmallAtTheBody) {
-  EXPECT_LT(shareWithoutEdge(boxOnTable(), kMesh, onTable(), kScale), 0.05);
+  EXPECT_LT(shareWithoutEdge(boxOnTable(), kMesh, onTable()), 0.05);
 }
 
 /// Only the depth inside the silhouette agrees: the upper side lies in the table.
 TEST(ShareWithoutEdge, IsLargeInsideATable) {
   const Eigen::Isometry3d sunk(Eigen::Translation3d(0.0, 0.25, kTable + 0.02));
-  EXPECT_GT(shareWithoutEdge(boxOnTable(), kMesh, sunk, kScale), 0.9);
+  EXPECT_GT(shareWithoutEdge(boxOnTable(), kMesh, sunk), 0.9);
 }
 
 TEST(ShareWithoutEdge, SeesThatTheBodyIsLarger) {
   const TriangleMesh smaller{0.7 * kMesh.vertices, kMesh.triangles};
   const Eigen::Isometry3d pose(Eigen::Translation3d(0.0, 0.0, kTable - 0.04 + 0.7 * 0.02));
-  EXPECT_GT(shareWithoutEdge(boxOnTable(), smaller, pose, kScale), kLargestShareWithoutEdge);
+  EXPECT_GT(shareWithoutEdge(boxOnTable(), smaller, pose), kLargestShareWithoutEdge);
 }
 
 /// A bent body's outline is some millimetres beside that of the mesh.
 TEST(ShareWithoutEdge, IsSmallThoughTheOutlineIsALittleInside) {
   const Points shrunk = kMesh.vertices * Eigen::Vector3d(0.97, 0.97, 1.0).asDiagonal();
-  EXPECT_LT(shareWithoutEdge(boxOnTable(), {shrunk, kMesh.triangles}, onTable(), kScale), 0.05);
+  EXPECT_LT(shareWithoutEdge(boxOnTable(), {shrunk, kMesh.triangles}, onTable()), 0.05);
 }
 
 /// A body that is thinner than the distance scale still has edges.
@@ -55,7 +53,7 @@ TEST(ShareWithoutEdge, WorksForAThinBody) {
   const Eigen::Isometry3d pose(Eigen::Translation3d(0.0, 0.0, kTable - 0.002));
   RgbdFrame frame = renderFrame(body, transformed(thin, pose), 1);
   frame.depth.setTo(kTable, frame.depth > 1.0f);
-  EXPECT_LT(shareWithoutEdge(frame, mesh, pose, kScale), 0.05);
+  EXPECT_LT(shareWithoutEdge(frame, mesh, pose), 0.05);
 }
 
 }  // namespace

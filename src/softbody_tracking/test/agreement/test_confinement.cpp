@@ -4,16 +4,13 @@
 
 #include "agreement/boxes_on_table.h"
 #include "softbody_common/geometry/rigid_fit.h"
-#include "softbody_tracking/tracker_config.h"
 
 namespace softbody {
 namespace {
 
-const RegistrationConfig kConfig;
-
 double confinementIn(const RgbdFrame& frame, const Eigen::Isometry3d& pose = lying(),
                      const TriangleMesh& mesh = kMesh) {
-  return confinement(frame, mesh, pose, kConfig.distance_scale_m);
+  return confinement(frame, mesh, pose);
 }
 
 TEST(Confinement, IsOneForABodyThatStandsFree) { EXPECT_GT(confinementIn(boxesOnTable({lying()})), 0.9); }

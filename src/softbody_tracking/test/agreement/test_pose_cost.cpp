@@ -4,7 +4,6 @@
 #include "fixtures/synthetic_scene.h"
 #include "registration/box_mesh.h"
 #include "softbody_common/geometry/rigid_fit.h"
-#include "softbody_tracking/tracker_config.h"
 
 namespace softbody {
 namespace {
@@ -14,12 +13,12 @@ TEST(PoseCost, IsLowestAtTheTruth) {
   const Eigen::Isometry3d truth = boxPose();
   const RgbdFrame frame = renderFrame(box, transformed(box.volume.rest_vertices, truth), 1);
   const TriangleMesh mesh{box.surface.rest_vertices, box.surface.triangles};
-  const double at_truth = PoseCost(frame, mesh, 0.02)(truth);
+  const double at_truth = PoseCost(frame, mesh)(truth);
   EXPECT_LT(at_truth, 1e-3);
   for (int axis = 0; axis < 3; ++axis) {
     for (double sign : {1.0, -1.0}) {
       const Eigen::Vector3d shift = sign * 0.002 * Eigen::Vector3d::Unit(axis);
-      EXPECT_GT(PoseCost(frame, mesh, 0.02)(Eigen::Translation3d(shift) * truth), at_truth);
+      EXPECT_GT(PoseCost(frame, mesh)(Eigen::Translation3d(shift) * truth), at_truth);
     }
   }
 }
@@ -27,17 +26,15 @@ TEST(PoseCost, IsLowestAtTheTruth) {
 TEST(PoseCost, IsHighestWhereNothingIsInView) {
   const RgbdFrame frame = renderFrame(kBox, transformed(kMesh.vertices, boxPose()), 1);
   const Eigen::Isometry3d behind(Eigen::Translation3d(0.0, 0.0, -0.5));
-  EXPECT_EQ(PoseCost(frame, kMesh, 0.02)(behind), 1.0);
+  EXPECT_EQ(PoseCost(frame, kMesh)(behind), 1.0);
 }
 
 TEST(PoseCost, GivesNoSupportToImplausiblePoses) {
   const RgbdFrame frame = renderFrame(kBox, transformed(kMesh.vertices, boxPose()), 1);
-  const RegistrationConfig config;
-  PoseCost cost(frame, kMesh, config.distance_scale_m);
-  EXPECT_GT(cost.support(boxPose(), config.max_cost), 1000.0);
+  PoseCost cost(frame, kMesh);
+  EXPECT_GT(cost.support(boxPose()), 1000.0);
   for (double aside_m : {0.05, 0.2, 5.0})
-    EXPECT_EQ(cost.support(Eigen::Translation3d(aside_m, 0.0, 0.0) * boxPose(), config.max_cost), 0.0)
-        << aside_m;
+    EXPECT_EQ(cost.support(Eigen::Translation3d(aside_m, 0.0, 0.0) * boxPose()), 0.0) << aside_m;
 }
 
 }  // namespace

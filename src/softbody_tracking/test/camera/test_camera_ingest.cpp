@@ -191,7 +191,6 @@ TEST(CameraIngest, ParametersHaveLimits) {
     Parameters parameters(YAML::Load(yaml));
     EXPECT_THROW(cameraIngestParameters().read(parameters), std::invalid_argument) << yaml;
   };
-  refused("edge_jump_ratio: 0");
   refused("min_depth_m: -1");
   refused("{min_depth_m: 2, max_depth_m: 1}");
 }

@@ -23,11 +23,11 @@ class DepthAssociationsTest : public ::testing::Test {
   void predict(const Points& vertices) { surface_ = {model_, frame_.camera, vertices, &memory_}; }
 
   Labels labels() const { return labelsAt(frame_, surface_, colors_, last_labels_); }
-  DepthAssociations associate(const DepthConfig& config = DepthConfig(),
+  DepthAssociations associate(int targets = TrackerConfig().max_depth_targets,
                               const Eigen::Isometry3d& motion = Eigen::Isometry3d::Identity(),
                               int pixel_step = 1) {
-    return associateDepth(frame_, surface_.image(), sampleSurface(surface_, config.max_targets), {motion},
-                          labels(), {config.weight, edge_, config.max_distance_m}, pixel_step);
+    return associateDepth(frame_, surface_.image(), sampleSurface(surface_, targets), {motion}, labels(),
+                          weight_, pixel_step);
   }
 
   /// To every pixel's depth.
@@ -39,7 +39,7 @@ class DepthAssociationsTest : public ::testing::Test {
 
   BoxBody box_ = makeBox();
   double edge_ = meanEdgeLength(box_.volume.rest_vertices, box_.volume.tets);
-  const DepthWeight weight_ = {DepthConfig().weight, edge_, DepthConfig().max_distance_m};
+  const DepthWeight weight_ = {TrackerConfig().depth_weight, edge_};
   Points truth_;
   RgbdFrame frame_;
   std::shared_ptr<const SurfaceModel> model_ = std::make_shared<SurfaceModel>(box_.volume, box_.surface);
@@ -73,7 +73,8 @@ TEST_F(DepthAssociationsTest, AFewPixelsOfABlockSayTheSame) {
   predict(transformed(truth_, Eigen::Isometry3d(Eigen::Translation3d(0.002, 0.0, -0.004))));
   const DepthAssociations all = associate();
   for (const int step : {2, 3, 1000}) {
-    const DepthAssociations some = associate({}, Eigen::Isometry3d::Identity(), step);
+    const DepthAssociations some =
+        associate(TrackerConfig().max_depth_targets, Eigen::Isometry3d::Identity(), step);
     EXPECT_NEAR(static_cast<double>(some.associations.size()), all.associations.size(),
                 0.05 * all.associations.size());
     EXPECT_NEAR(rmsResidual(some.associations), rmsResidual(all.associations),
@@ -114,7 +115,7 @@ TEST_F(DepthAssociationsTest, WeighSurfaceByItsAreaHoweverSteeplyItIsSeen) {
       const Eigen::Vector3d normal = (b - a).cross(c - a);  // twice the area long
       if (normal.dot(a) < 0.0) area += 0.5 * normal.norm();
     }
-    EXPECT_NEAR(weights, DepthConfig().weight * area, 0.07 * area) << "turned by " << angle;
+    EXPECT_NEAR(weights, TrackerConfig().depth_weight * area, 0.07 * area) << "turned by " << angle;
   }
 }
 
@@ -135,9 +136,7 @@ TEST_F(DepthAssociationsTest, WeighTheSameSurfaceTheSameWhateverTheNumberOfBlock
     addNoise(noise_m);
     const double usual = totalWeight(associate(), fine);
     for (const int targets : {300, 3000, 100000}) {
-      DepthConfig other;
-      other.max_targets = targets;
-      EXPECT_NEAR(totalWeight(associate(other), fine) / usual, 1.0, 0.15) << noise_m << " " << targets;
+      EXPECT_NEAR(totalWeight(associate(targets), fine) / usual, 1.0, 0.15) << noise_m << " " << targets;
     }
   }
 }
@@ -147,9 +146,7 @@ TEST_F(DepthAssociationsTest, AreAsNoisyWhateverTheNumberOfBlocks) {
   addNoise(kNoise);
   const double density = kNoise * boxPose().translation().z() / frame_.camera.fx;  // of single pixels
   for (const int targets : {100, 300, 1500, 3000, 100000}) {
-    DepthConfig config;
-    config.max_targets = targets;
-    EXPECT_NEAR(associate(config).noise.density, density, 0.13 * density) << targets;
+    EXPECT_NEAR(associate(targets).noise.density, density, 0.13 * density) << targets;
   }
 }
 
@@ -170,10 +167,8 @@ TEST_F(DepthAssociationsTest, WeighLessWhereDepthIsNoisierThanUsual) {
 /// The rigid step leaves out pixels, and does not ask.
 TEST_F(DepthAssociationsTest, TellTheNoiseOfWholeBlocksAlone) {
   for (const int targets : {1500, 100000}) {
-    DepthConfig config;
-    config.max_targets = targets;
-    EXPECT_GT(associate(config).noise.count, 500u) << targets;
-    EXPECT_EQ(associate(config, Eigen::Isometry3d::Identity(), 2).noise.count, 0u) << targets;
+    EXPECT_GT(associate(targets).noise.count, 500u) << targets;
+    EXPECT_EQ(associate(targets, Eigen::Isometry3d::Identity(), 2).noise.count, 0u) << targets;
   }
 }
 
@@ -191,9 +186,7 @@ TEST_F(DepthAssociationsTest, ABendOtherThanPredictedIsHardlyNoise) {
       }
       frame_ = renderFrame(box_, transformed(bent, boxPose()), 1);
       for (const int targets : {100, 300, 1500}) {
-        DepthConfig config;
-        config.max_targets = targets;
-        const DepthAssociations found = associate(config);
+        const DepthAssociations found = associate(targets);
         ASSERT_GT(rmsResidual(found.associations), 0.001);
         double plain = 0.0;
         for (const Association& a : found.associations) plain += a.weight;
@@ -266,7 +259,7 @@ TEST_F(DepthAssociationsTest, MoveWithTheirSamples) {
   const Eigen::Isometry3d error =
       Eigen::Translation3d(0.003, -0.002, 0.004) * Eigen::AngleAxisd(0.01, Eigen::Vector3d::UnitZ());
   predict(transformed(truth_, error));
-  for (const Association& a : associate({}, error.inverse()).associations) {
+  for (const Association& a : associate(TrackerConfig().max_depth_targets, error.inverse()).associations) {
     EXPECT_LT(std::abs(a.residual()), 4e-4);
     EXPECT_LT((positionOf(a.place, truth_, box_.volume.tets) - a.predicted).norm(), 1e-6);
   }
@@ -324,9 +317,7 @@ TEST_F(DepthAssociationsTest, ABulgeIsThePartOfTheSurfaceThatItIs) {
     }
   }
   for (const int targets : {1500, 300, 100, 50}) {
-    DepthConfig config;
-    config.max_targets = targets;
-    const DepthAssociations found = associate(config);
+    const DepthAssociations found = associate(targets);
     EXPECT_EQ(found.occluded_blocks, 0) << targets;
     double highest = 0.0;
     for (const Association& a : found.associations) highest = std::max(highest, a.residual());

@@ -13,17 +13,17 @@ std::vector<Keypoint> keypointsAt(const std::vector<cv::Point2f>& pixels) {
 
 TEST(DescriptorMatch, TakesTheNearestThatHasNoRivalElsewhere) {
   const std::vector<Keypoint> apart = keypointsAt({{10.0f, 10.0f}, {50.0f, 10.0f}, {90.0f, 10.0f}});
-  EXPECT_EQ(clearlyNearest({{60, 0}, {20, 2}, {24, 1}}, apart, 64), 1);
-  EXPECT_EQ(clearlyNearest({{60, 0}, {20, 2}, {23, 1}}, apart, 64), -1) << "nearly as near";
-  EXPECT_EQ(clearlyNearest({{60, 0}, {20, 2}, {24, 1}}, apart, 19), -1) << "too far";
-  EXPECT_EQ(clearlyNearest({}, apart, 64), -1);
+  EXPECT_EQ(clearlyNearest({{60, 0}, {20, 2}, {24, 1}}, apart), 1);
+  EXPECT_EQ(clearlyNearest({{60, 0}, {20, 2}, {23, 1}}, apart), -1) << "nearly as near";
+  EXPECT_EQ(clearlyNearest({{kMaxHammingDistance + 1, 0}}, apart), -1) << "too far";
+  EXPECT_EQ(clearlyNearest({}, apart), -1);
 }
 
 TEST(DescriptorMatch, KeypointsOfOnePlaceAreNoRivals) {
   const std::vector<Keypoint> close = keypointsAt({{10.0f, 10.0f}, {12.0f, 12.0f}});
-  EXPECT_EQ(clearlyNearest({{20, 0}, {20, 1}}, close, 64), 0);
+  EXPECT_EQ(clearlyNearest({{20, 0}, {20, 1}}, close), 0);
   const std::vector<Keypoint> apart = keypointsAt({{10.0f, 10.0f}, {12.0f, 13.0f}});
-  EXPECT_EQ(clearlyNearest({{20, 0}, {20, 1}}, apart, 64), -1);
+  EXPECT_EQ(clearlyNearest({{20, 0}, {20, 1}}, apart), -1);
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "fixtures/labels_at.h"
 #include "fixtures/synthetic_scene.h"
 #include "softbody_common/geometry/rigid_fit.h"
+#include "softbody_tracking/tracker_config.h"
 
 namespace softbody {
 namespace {
@@ -66,7 +67,7 @@ class FeatureMapTest : public ::testing::Test {
   ExpectedFeatures expect(const FeatureMap& map) const {
     return expectFeatures(map.features(), labelsAt(frame_, surface_), surface_);
   }
-  FeatureMatcher matcher() const { return {config_, map_.features(), frame_, image_}; }
+  FeatureMatcher matcher() const { return {map_.features(), frame_, image_}; }
 
   struct Found {
     ExpectedFeatures expected;
@@ -77,13 +78,12 @@ class FeatureMapTest : public ::testing::Test {
   Found align() {
     Found found{expect(map_), {}};
     found.all = matcher().alignAll(found.expected);
-    markOutliers(frame_.camera, config_.max_disagreement_m, &found.all.matches);
+    markOutliers(frame_.camera, &found.all.matches);
     map_.score(found.expected, found.all.matches, {true}, 1.0 / 30.0);
     return found;
   }
 
   BoxBody box_ = makeBox();
-  FeatureConfig config_;
   std::shared_ptr<const SurfaceModel> model_ = std::make_shared<SurfaceModel>(box_.volume, box_.surface);
   RgbdFrame frame_ = renderFrame(box_, transformed(box_.volume.rest_vertices, boxPose()), 1);
   RasterMemory memory_;
@@ -91,7 +91,7 @@ class FeatureMapTest : public ::testing::Test {
                             &memory_};
   GrayPyramid image_ = wholeImage();
   OrbExtractor orb_;
-  FeatureMap map_{FeatureConfig()};
+  FeatureMap map_{TrackerConfig().max_features};
 };
 
 TEST_F(FeatureMapTest, BindsFeaturesWhereTheirPixelsSeeTheBody) {
@@ -248,7 +248,7 @@ TEST_F(FeatureMapTest, TriesFeaturesForTheSameTimeAtAnyRate) {
 }
 
 TEST_F(FeatureMapTest, LearnsNothingOfAnAlmostHiddenPiece) {
-  FeatureMap none{FeatureConfig()};
+  FeatureMap none{TrackerConfig().max_features};
   admit(keypoints(), &none, 0, false);
   EXPECT_TRUE(none.features().empty());
   const Found found = align();
@@ -261,18 +261,14 @@ TEST_F(FeatureMapTest, LearnsNothingOfAnAlmostHiddenPiece) {
 }
 
 TEST_F(FeatureMapTest, HoldsNoMoreThanAsked) {
-  FeatureConfig config;
-  config.max_features = 50;
-  FeatureMap small(config);
+  FeatureMap small(50);
   admit(keypoints(), &small);
   EXPECT_EQ(small.features().size(), 50u);
 }
 
 /// A new side in view gets as many features as the first one.
 TEST_F(FeatureMapTest, HoldsTheSameNumberInEveryView) {
-  FeatureConfig config;
-  config.max_features = 40;
-  FeatureMap small(config);
+  FeatureMap small(40);
   std::size_t known = 0;
   for (int view = 0; view < 6; ++view) {
     const Eigen::Vector3d axis = view < 4 ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitY();
@@ -291,9 +287,7 @@ TEST_F(FeatureMapTest, HoldsTheSameNumberInEveryView) {
 }
 
 TEST_F(FeatureMapTest, KeepsFourTimesAsManyAsMayBeInView) {
-  FeatureConfig config;
-  config.max_features = 40;
-  FeatureMap small(config);
+  FeatureMap small(40);
   for (const std::size_t kept : {40u, 80u, 120u, 160u, 160u}) {
     admit(keypoints(), &small);
     EXPECT_EQ(small.features().size(), kept) << "of what was admitted before, nothing is expected in view";
@@ -305,7 +299,7 @@ TEST_F(FeatureMapTest, ChoosesCornersOnTheBodyWhereFeaturesAreFew) {
   const cv::Rect& region = surface_.image().region;
   const std::vector<cv::KeyPoint> corners =
       orb_.detect(frame_.color, cv::Mat1b(frame_.color.size(), 255), region);
-  FeatureMap half{FeatureConfig()};
+  FeatureMap half{TrackerConfig().max_features};
   const auto is_left = [&](const cv::KeyPoint& corner) { return corner.pt.x < region.x + region.width / 2; };
   std::vector<cv::KeyPoint> left;
   std::copy_if(corners.begin(), corners.end(), std::back_inserter(left), is_left);

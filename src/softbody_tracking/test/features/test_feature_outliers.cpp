@@ -11,7 +11,6 @@ namespace softbody {
 namespace {
 
 const Pinhole kCamera{640, 480, 600.0, 600.0, 319.5, 239.5};
-constexpr double kMaxDisagreement = 0.006;  // [m]
 
 /// The body's true motion and bend relative to the prediction [m].
 Eigen::Vector3d truth(const Eigen::Vector3d& predicted, const Eigen::Vector3d& shift) {
@@ -53,7 +52,7 @@ class FeatureOutliers : public testing::TestWithParam<unsigned> {
     std::uniform_real_distribution<double> uniform(-0.01, 0.01);
     shift_ = {uniform(random_), uniform(random_), uniform(random_)};
     Scene made = makeScene(count, wrong_share, shift_, &random_);
-    markOutliers(kCamera, kMaxDisagreement, &made.matches);
+    markOutliers(kCamera, &made.matches);
     return made;
   }
 
@@ -118,7 +117,7 @@ TEST_P(FeatureOutliers, ManyThatAgreeOnAnotherMotionDoNotLeadThePiece) {
       match.pixel.x += shift_px;
       match.association.measured.x() += shift_px / kCamera.fx * match.association.measured.z();
     }
-    markOutliers(kCamera, kMaxDisagreement, &made.matches);
+    markOutliers(kCamera, &made.matches);
     int wrong_kept = 0, right_lost = 0;
     for (std::size_t m = 0; m < made.matches.size(); ++m) {
       wrong_kept += made.wrong[m] && made.matches[m].inlier ? 1 : 0;
@@ -136,7 +135,7 @@ TEST_P(FeatureOutliers, PiecesAreJudgedByThemselves) {
     made.matches[m].association.piece = 1;
     made.matches[m].association.predicted.x() += 0.005;
   }
-  markOutliers(kCamera, kMaxDisagreement, &made.matches);
+  markOutliers(kCamera, &made.matches);
   const auto kept = std::count_if(made.matches.begin(), made.matches.end(),
                                   [](const FeatureMatch& match) { return match.inlier; });
   EXPECT_GT(kept, 0.97 * 800);
@@ -164,7 +163,7 @@ TEST_P(FeatureOutliers, ALimbThatMovesOtherwiseThanTheBodyBesideItStays) {
     Scene made = makeScene(800, wrong_share, Eigen::Vector3d::Zero(), &random_);
     const std::vector<FeatureMatch> its = limb(40, 2.5, Eigen::Vector3d::Zero(), &random_);
     made.matches.insert(made.matches.end(), its.begin(), its.end());
-    markOutliers(kCamera, kMaxDisagreement, &made.matches);
+    markOutliers(kCamera, &made.matches);
     const auto kept =
         std::count_if(made.matches.begin() + 800, made.matches.end(), [](const auto& m) { return m.inlier; });
     EXPECT_GT(kept, 34) << wrong_share;
@@ -185,7 +184,7 @@ TEST_P(FeatureOutliers, AGroupThatIsSmallOrFarOffDoesNotStay) {
     const std::vector<FeatureMatch> its =
         limb(group.count, group.shift_px, Eigen::Vector3d::Zero(), &random_);
     made.matches.insert(made.matches.end(), its.begin(), its.end());
-    markOutliers(kCamera, kMaxDisagreement, &made.matches);
+    markOutliers(kCamera, &made.matches);
     const auto kept =
         std::count_if(made.matches.begin() + 800, made.matches.end(), [](const auto& m) { return m.inlier; });
     EXPECT_LE(kept, 1) << group.count;
@@ -197,7 +196,7 @@ TEST_P(FeatureOutliers, FewWithoutNeighborsAreJudgedByTheirLengthAlone) {
   for (FeatureMatch& match : made.matches)
     match.association.measured = match.association.predicted + Eigen::Vector3d(0.004, 0.0, 0.0);
   made.matches[0].association.measured.x() += 0.004;
-  markOutliers(kCamera, kMaxDisagreement, &made.matches);
+  markOutliers(kCamera, &made.matches);
   EXPECT_FALSE(made.matches[0].inlier);
   EXPECT_TRUE(made.matches[1].inlier);
   EXPECT_TRUE(made.matches[2].inlier);
@@ -210,7 +209,7 @@ TEST(FeatureOutliersOfPieces, AreJudgedByTheirOwnPiece) {
   std::vector<FeatureMatch> small = makeScene(40, 0.0, {0.02, 0.0, 0.0}, &random).matches;
   for (FeatureMatch& match : small) match.association.piece = 1;
   matches.insert(matches.end(), small.begin(), small.end());
-  markOutliers(kCamera, kMaxDisagreement, &matches);
+  markOutliers(kCamera, &matches);
   const auto kept =
       std::count_if(matches.begin() + 400, matches.end(), [](const auto& m) { return m.inlier; });
   EXPECT_GT(kept, 35);

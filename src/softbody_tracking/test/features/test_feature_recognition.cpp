@@ -92,7 +92,7 @@ TEST(FeatureRecognition, PairsAKeypointWithTheFeatureMostLikeIt) {
     features[f].descriptor = descriptorOf(f == 1 ? 2 : 5);
   }
   const auto pairs =
-      recognizedFeatures(frame, features, {keypoint}, SurfaceModel(box.volume, box.surface), vertices, 64);
+      recognizedFeatures(frame, features, {keypoint}, SurfaceModel(box.volume, box.surface), vertices);
   ASSERT_EQ(pairs.size(), 1u);
   EXPECT_EQ(pairs[0].expected, positionOf(features[1].place, vertices, box.volume.tets));
 }

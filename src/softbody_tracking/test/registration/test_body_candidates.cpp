@@ -13,7 +13,7 @@ constexpr double kDiameter = 0.2272;
 
 std::vector<BodyCandidate> candidatesIn(const RgbdFrame& frame, double diameter_m = kDiameter,
                                         const RegionColors& colors = RegionColors()) {
-  return findBodyCandidates(frame, colors, diameter_m, RegistrationConfig().distance_scale_m);
+  return findBodyCandidates(frame, colors, diameter_m);
 }
 
 TEST(BodyCandidates, AreTheObjectsBeforeTheWall) {

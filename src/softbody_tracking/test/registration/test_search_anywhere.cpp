@@ -20,11 +20,11 @@ const SearchMeshes& boxMeshes() {
 std::optional<FoundPose> search(const RgbdFrame& frame, const FeatureShare& feature_share,
                                 const std::vector<Eigen::Isometry3d>& guesses = {},
                                 const SearchMeshes& meshes = boxMeshes()) {
-  return searchAnywhere(frame, RegionColors(), meshes, guesses, feature_share, RegistrationConfig()).found;
+  return searchAnywhere(frame, RegionColors(), meshes, guesses, feature_share).found;
 }
 
 std::vector<PoseHypothesis> boxPoses(const RgbdFrame& frame) {
-  return posesAnywhere(frame, RegionColors(), boxMeshes(), {}, RegistrationConfig());
+  return posesAnywhere(frame, RegionColors(), boxMeshes(), {});
 }
 
 Eigen::Isometry3d nearPose() { return Eigen::Translation3d(-0.1, 0.0, 0.0) * boxPose(); }
@@ -160,12 +160,11 @@ TEST(SearchAnywhere, DoesNotTakeTheNextPlaceUnlessFeaturesConfirmIt) {
 
 /// After a loss: without its features the body is taken only near its last place, in any turn.
 TEST(SearchAnywhere, TakesAPlaceThatIsNotExpectedOnlyIfFeaturesConfirmIt) {
-  const RegistrationConfig config;
   const RgbdFrame frame = bodyAt(farPose(), 0.002);
   const auto searched = [&](const Eigen::Isometry3d& last, double share) {
     const auto feature_share = [&](const Eigen::Isometry3d&) { return share; };
-    return searchAnywhere(frame, RegionColors(), boxMeshes(), {}, feature_share, config,
-                          roughPose(last, config))
+    return searchAnywhere(frame, RegionColors(), boxMeshes(), {}, feature_share,
+                          roughPose(last, RegistrationConfig()))
         .found;
   };
   EXPECT_FALSE(searched(nearPose(), -1.0)) << "another thing of this shape";

@@ -12,7 +12,7 @@ namespace {
 double unknownFeatures(const Eigen::Isometry3d&) { return -1.0; }
 
 SearchOutcome searched(const RgbdFrame& frame, const SearchMeshes& meshes) {
-  return searchAnywhere(frame, RegionColors(), meshes, {}, unknownFeatures, RegistrationConfig());
+  return searchAnywhere(frame, RegionColors(), meshes, {}, unknownFeatures);
 }
 
 double turnBetween(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {

@@ -12,8 +12,7 @@ namespace softbody {
 namespace {
 
 PoseHypothesis searchNear(const RgbdFrame& frame, const TriangleMesh& mesh, const Eigen::Isometry3d& rough) {
-  return searchNearPose(frame, {mesh, mesh, mesh}, roughPose(rough, RegistrationConfig()),
-                        RegistrationConfig());
+  return searchNearPose(frame, {mesh, mesh, mesh}, roughPose(rough, RegistrationConfig()));
 }
 
 TEST(SearchNearPose, FindsTheBoxFromRoughPoses) {
@@ -44,8 +43,8 @@ TEST(SearchNearPose, WorksWithACoarseMesh) {
   const RgbdFrame frame = renderFrame(box, transformed(mesh.vertices, truth), 1);
   const Eigen::Isometry3d rough = Eigen::Translation3d(0.01, -0.015, 0.01) * truth *
                                   Eigen::AngleAxisd(0.2, Eigen::Vector3d(1, 2, -1).normalized());
-  const PoseHypothesis found = searchNearPose(frame, {mesh, mesh, coarse},
-                                              roughPose(rough, RegistrationConfig()), RegistrationConfig());
+  const PoseHypothesis found =
+      searchNearPose(frame, {mesh, mesh, coarse}, roughPose(rough, RegistrationConfig()));
   const Points difference = transformed(mesh.vertices, found.pose) - transformed(mesh.vertices, truth);
   EXPECT_LT(difference.rowwise().norm().maxCoeff(), 0.002) << found.cost;
 }
@@ -129,7 +128,7 @@ TEST(SearchNearPose, FindsALargeBodyFarAway) {
       Eigen::Translation3d(0.05, -0.04, 0.05) * truth * Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitY());
   RegistrationConfig config;
   config.pose_std_m = 0.05;
-  const PoseHypothesis found = searchNearPose(frame, {mesh, mesh, mesh}, roughPose(rough, config), config);
+  const PoseHypothesis found = searchNearPose(frame, {mesh, mesh, mesh}, roughPose(rough, config));
   EXPECT_LT(found.cost, 0.25);
   const Points difference = transformed(mesh.vertices, found.pose) - transformed(mesh.vertices, truth);
   EXPECT_LT(difference.rowwise().norm().maxCoeff(), 0.02);
@@ -144,8 +143,7 @@ TEST(SearchNearPose, FindsNoGoodPoseOnABareWall) {
 }
 
 SearchOutcome acceptedNear(const RgbdFrame& frame, const Eigen::Isometry3d& rough) {
-  const RegistrationConfig config;
-  return searchNearAccepted(frame, makeSearchMeshes(kMesh), roughPose(rough, config), config);
+  return searchNearAccepted(frame, makeSearchMeshes(kMesh), roughPose(rough, RegistrationConfig()));
 }
 
 /// Rough poses about as far from the truth as their standard deviations.

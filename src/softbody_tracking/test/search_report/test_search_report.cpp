@@ -2,6 +2,9 @@
 
 #include "fixtures/synthetic_scene.h"
 #include "registration/box_mesh.h"
+#include "registration/search_anywhere.h"
+#include "registration/search_near_pose.h"
+#include "search_report/search_measurement.h"
 #include "search_report/search_sentence.h"
 #include "softbody_common/geometry/rigid_fit.h"
 
@@ -12,8 +15,16 @@ TriangleMesh scaledBox(double factor) { return {factor * kMesh.vertices, kMesh.t
 
 RgbdFrame boxFrame() { return renderFrame(kBox, transformed(kMesh.vertices, boxPose()), 1); }
 
+/// Of a search anywhere.
 SearchReport searchIn(const RgbdFrame& frame, const TriangleMesh& mesh = kMesh) {
-  return searchForBody(frame, mesh, std::nullopt, RegistrationConfig());
+  const SearchMeshes meshes = makeSearchMeshes(mesh);
+  const RegionColors colors;
+  const SearchOutcome outcome =
+      searchAnywhere(frame, colors, meshes, {}, [](const Eigen::Isometry3d&) { return -1.0; });
+  SearchReport report = measureSearch(frame, colors, meshes, outcome, std::nullopt);
+  report.found = outcome.found.has_value();
+  if (!report.found) report.fitting_scale = fittingScale(frame, colors, meshes, outcome.best);
+  return report;
 }
 
 void expectWords(const SearchReport& report, const std::vector<std::string>& words) {
@@ -105,12 +116,9 @@ SearchReport disagreeing() {
   report.part_fits = true;
   report.depth_share = 0.9;
   report.cost = 0.31;
-  report.largest_cost = 0.22;
   report.agreeing = 0.6;
   report.difference_m = 0.012;
   report.confined = 0.8;
-  report.least_confined = 0.25;
-  report.largest_without_edge = 0.35;
   return report;
 }
 
@@ -134,15 +142,14 @@ TEST(SearchReport, SaysWhatToDo) {
   report.shift_m = 0.12;
   expectWords(report, {"120 mm and 0 degrees", "search: anywhere"});
   report.confined = 0.1;
-  expectWords(report, {"only 10 % of the edges", "needed: 25 %"});
+  expectWords(report, {"only 10 % of the edges", "needed: 20 %"});
   report.found = true;
   EXPECT_EQ(whyNotFound(report), "");
 }
 
-TEST(SearchReport, ARoughPoseIsTriedFirst) {
-  const RgbdFrame frame = touched({0.195, 0.0, 0.0});
-  const SearchReport report = searchForBody(frame, kMesh, boxPose(), RegistrationConfig());
-  EXPECT_TRUE(report.found) << whyNotFound(report);
+TEST(SearchReport, ABodyThatTouchesAnotherIsFoundNearItsRoughPose) {
+  const RoughPose rough = roughPose(boxPose(), RegistrationConfig());
+  EXPECT_TRUE(searchNearAccepted(touched({0.195, 0.0, 0.0}), makeSearchMeshes(kMesh), rough).found);
 }
 
 }  // namespace

@@ -286,18 +286,6 @@ TEST(BodyTracker, RefusesImagesOfAnotherSizeThanTheCameras) {
                std::invalid_argument);
 }
 
-TEST(BodyTracker, KnnModeMovesVertices) {
-  TrackerConfig config;
-  config.knn_targets = true;
-  TrackedBox tracked(config);
-  tracked.show(posedBox(tracked.box()));
-  const Points truth = posedBox(tracked.box(), 0.005, 0.05);
-  const TrackingResult result = tracked.show(truth);
-  ASSERT_FALSE(result.targets.targets.empty());
-  for (const Target& target : result.targets.targets) EXPECT_EQ(target.kind, TargetKind::kVertex);
-  EXPECT_LT(tracked.worstTarget(result, truth, TargetKind::kVertex), 0.006);
-}
-
 /// It has a later revision than the body before, as an edit has.
 TEST(BodyTracker, AnotherBodyIsSearchedForFromTheStart) {
   BoxBody box = makeBox();

@@ -273,10 +273,9 @@ TEST_F(CutObserver, MovesAPieceOnlyToWhereItsOwnFeaturesAre) {
 
 TEST_F(CutObserver, SeesOutlinesOnlyWhereTheyAreUsed) {
   const Points beside = transformed(rest_, Eigen::Isometry3d(Eigen::Translation3d(0.012, 0.0, 0.0)));
-  const auto outlines = [&](bool use_depth, bool knn) {
+  const auto outlines = [&](double weight) {
     TrackerConfig config;
-    config.use_depth = use_depth;
-    config.knn_targets = knn;
+    config.outline_weight = weight;
     const cv::Mat3b plain(frame_.color.size(), cv::Vec3b(90, 90, 90));
     RgbdFrame frame = frame_;
     frame.color = plain;
@@ -284,9 +283,8 @@ TEST_F(CutObserver, SeesOutlinesOnlyWhereTheyAreUsed) {
         .observe(next(frame), beside)
         .seen.outline.associations.size();
   };
-  EXPECT_EQ(outlines(false, false), 0u);
-  EXPECT_EQ(outlines(true, true), 0u);
-  EXPECT_GT(outlines(true, false), 10u);
+  EXPECT_EQ(outlines(0.0), 0u);
+  EXPECT_GT(outlines(1.0), 10u);
 }
 
 TEST_F(CutObserver, NamesPiecesAsTheVisualMeshDoes) {

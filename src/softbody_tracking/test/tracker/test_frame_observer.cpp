@@ -17,7 +17,7 @@ namespace {
 class TurnedBox : public ::testing::Test {
  protected:
   explicit TurnedBox(int max_features = 1000, const BoxBody& box = makeBox()) : box_(box) {
-    config_.features.max_features = max_features;
+    config_.max_features = max_features;
     observer_ = std::make_unique<FrameObserver>(config_, box_.volume, box_.surface);
   }
 
@@ -283,7 +283,7 @@ TEST_F(BoxOfFewFeatures, TrustsNoneMore) {
   const auto heaviest = std::max_element(matches.begin(), matches.end(), [](const auto& a, const auto& b) {
     return a.association.weight < b.association.weight;
   });
-  EXPECT_LE(heaviest->association.weight, config_.features.weight);
+  EXPECT_LE(heaviest->association.weight, kFeatureWeight);
 }
 
 }  // namespace

@@ -13,21 +13,18 @@ double totalWeight(const TrackingResult& result, TargetKind kind) {
 
 TEST(BodyTracker, NewWeightsCountFromTheNextFrameOn) {
   TrackerConfig config;
-  config.outline.weight = 0.0;
+  config.outline_weight = 0.0;
   TrackedBox tracked(config), usual(config);
   const Points rest = posedBox(tracked.box());
   for (int i = 0; i < 5; ++i) {
     tracked.show(rest);
     usual.show(rest);
   }
-  config.depth.weight *= 0.5;
-  config.features.weight *= 0.25;
+  config.depth_weight *= 0.5;
   tracked.tracker().setConfig(config);
   const TrackingResult changed = tracked.show(rest), same = usual.show(rest);
   EXPECT_EQ(changed.status.state, TrackingState::kTracking);
   EXPECT_NEAR(totalWeight(changed, TargetKind::kDepth) / totalWeight(same, TargetKind::kDepth), 0.5, 0.05);
-  EXPECT_NEAR(totalWeight(changed, TargetKind::kFeature) / totalWeight(same, TargetKind::kFeature), 0.25,
-              0.025);
 }
 
 }  // namespace

@@ -74,7 +74,7 @@ TEST_F(ViewTest, MovingACopyDoesNotChangeIt) {
 TEST_F(ViewTest, HasContoursOnlyWhereTheyAreUsed) {
   TrackerConfig config;
   EXPECT_TRUE(ViewSettings(config).contours);
-  config.outline.weight = 0.0;
+  config.outline_weight = 0.0;
   EXPECT_FALSE(ViewSettings(config).contours);
   const View view = render(model_, camera_, at(Eigen::Vector3d::Zero()), ViewSettings(config), &memory_);
   EXPECT_FALSE(view.samples.samples.empty());

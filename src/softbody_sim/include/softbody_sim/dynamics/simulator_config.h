@@ -16,8 +16,7 @@ enum class SolverKind { kProjectiveDynamics, kFem, kPrediction };
 struct SimulatorConfig {
   SolverKind solver = SolverKind::kProjectiveDynamics;
   Elasticity elasticity = Elasticity::kCorotated;
-  bool simulate = true;  ///< false: targets move surface vertices directly (Kang et al. 2022, Fig. 6)
-  int iterations = 20;   ///< maximum of a step: local/global iterations, or Newton iterations
+  int iterations = 20;  ///< maximum of a step: local/global iterations, or Newton iterations
   /// A step has converged when the sum of the unbalanced forces is this share of that of the external forces.
   double tolerance = 2e-4;
   int lbfgs_history = 5;  ///< moves that L-BFGS keeps, at most 5; 0: plain projective dynamics

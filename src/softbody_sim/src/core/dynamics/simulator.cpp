@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "constraints/contact_patches.h"
-#include "dynamics/direct_deformation.h"
 #include "dynamics/external_forces.h"
 #include "dynamics/simulator_implementation.h"
 #include "dynamics/target_validation.h"
@@ -74,13 +73,8 @@ void Simulator::Implementation::place(const Eigen::Isometry3d& pose, Nanoseconds
 
 void Simulator::Implementation::advance(const std::vector<Target>& targets, Nanoseconds stamp,
                                         const Surroundings& surroundings) {
-  if (config.simulate) {
-    const double elapsed_s = std::max(0.0, seconds(stamp - next.stamp));
-    integrator.step(model.get(), targets, elapsed_s, surroundings, &next);
-  } else {
-    moveToTargets(targets, model->topology, &next.mesh.vertices);
-    next.report = {0, true};
-  }
+  const double elapsed_s = std::max(0.0, seconds(stamp - next.stamp));
+  integrator.step(model.get(), targets, elapsed_s, surroundings, &next);
   // A step without images may be ahead of the next image, but not by much.
   next.stamp = next.stamp - stamp > Timeline::kLeap ? stamp : std::max(next.stamp, stamp);
 }

@@ -14,8 +14,6 @@ using Config = SimulatorConfig;
 using Table = ParameterTable<Config>;
 
 void addSolver(Table* table) {
-  table->flag("simulate", &Config::simulate,
-              "false: surface vertices move to their targets without simulation (Figure 6 of the paper)");
   table->choice<SolverKind>("solver", &Config::solver,
                             {{"pd", SolverKind::kProjectiveDynamics}, {"fem", SolverKind::kFem}},
                             "pd is fast; fem is slower and more accurate");

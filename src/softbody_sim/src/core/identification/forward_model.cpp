@@ -16,7 +16,6 @@ namespace {
 SimulatorConfig accurate(const MaterialProblem& problem) {
   SimulatorConfig config = problem.simulator;
   config.solver = SolverKind::kFem;
-  config.simulate = true;
   config.iterations = 200;
   config.tolerance = 1e-10;
   config.load_fade_s = 0.0;  // no load is estimated: the material explains the shape

@@ -9,10 +9,6 @@
 namespace softbody {
 
 struct CameraIngestConfig {
-  /// Two neighbouring pixels belong to one surface if their depths differ by less than this fraction of z.
-  /// Surfaces are kept up to a slant of about atan(ratio * focal length in px): 80 degrees at 275 px, 85 at
-  /// 600.
-  double edge_jump_ratio = 0.02;
   double min_depth_m = 0.1, max_depth_m = 5.0;  ///< depth outside of this range is removed
   bool keep_all_depth = false;                  ///< neither range nor edges remove depth (evaluation)
 };

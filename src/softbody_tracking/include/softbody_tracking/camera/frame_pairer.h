@@ -15,11 +15,12 @@ namespace softbody {
 
 /// How colour and depth images are paired.
 struct PairingConfig {
-  bool exact = false;                  ///< stamps must be equal
-  Nanoseconds tolerance = 15'000'000;  ///< largest difference of stamps if not exact
-  int queue_size = 10;                 ///< largest number of waiting images of a stream
+  Nanoseconds tolerance = 15'000'000;  ///< largest difference of stamps; 0: they must be equal
   bool every_color = false;            ///< every colour image makes a frame, also without depth (evaluation)
 };
+
+/// Images of a stream that may wait for their partners: a third of a second at 30 Hz.
+constexpr std::size_t kMostWaiting = 10;
 
 const ParameterTable<PairingConfig>& pairingParameters();
 
@@ -52,9 +53,7 @@ class FramePairer {
   };
 
   explicit FramePairer(const PairingConfig& config)
-      : tolerance_(config.exact ? 0 : config.tolerance),
-        queue_size_(static_cast<std::size_t>(config.queue_size)),
-        every_color_(config.every_color) {}
+      : tolerance_(config.tolerance), every_color_(config.every_color) {}
 
   StampVerdict addColor(Nanoseconds stamp, ColorPtr color) {
     const StampVerdict verdict = colors_.add(stamp, std::move(color));
@@ -65,7 +64,7 @@ class FramePairer {
   StampVerdict addDepth(Nanoseconds stamp, DepthPtr depth) {
     const StampVerdict verdict = depths_.add(stamp, std::move(depth));
     count(verdict, &unpaired_.depths_repeated, &unpaired_.depths_late);
-    while (depths_.images.size() > queue_size_) {
+    while (depths_.images.size() > kMostWaiting) {
       ++unpaired_.depths_alone;
       depths_.drop(1);
     }
@@ -79,7 +78,7 @@ class FramePairer {
   /// @param finish true if no more images will come: then every pair is complete.
   std::optional<Frame> next(bool finish = false) {
     while (!colors_.images.empty()) {
-      const bool overdue = colors_.images.size() > queue_size_;
+      const bool overdue = colors_.images.size() > kMostWaiting;
       if (!info_ && !overdue) return std::nullopt;
       const auto [stamp, color, pass] = colors_.images.front();
       const Partner partner = partnerOf(stamp);
@@ -222,7 +221,6 @@ class FramePairer {
   }
 
   Nanoseconds tolerance_;
-  std::size_t queue_size_;
   bool every_color_;
   Queue<ColorPtr> colors_;
   Queue<DepthPtr> depths_;

@@ -12,22 +12,13 @@
 /// The parameters of this package's nodes.
 namespace softbody {
 
-/// Times above which camera_ingest warns.
-struct WatchLimits {
-  double silence_timeout_s = 2.0;  ///< without a frame
-  /// From an image's stamp to its complete frame. More is not a slow machine: the clocks differ.
-  double latency_s = 2.0;
-  double lead_s = 0.1;  ///< of a stamp before this machine's clock
-};
-
 struct CameraIngestOptions {
   PairingConfig pairing;
   CameraIngestConfig ingest;
-  double depth_scale = 0.0;   ///< metres per unit of depth; 0: by the encoding
-  double voxel_size_m = 0.0;  ///< of `points`; 0: a point for each pixel
-  WatchLimits limits;
-  std::string image_transport = "raw";
-  std::string color_transport, depth_transport;  ///< empty: image_transport
+  double depth_scale = 0.0;        ///< metres per unit of depth; 0: by the encoding
+  double voxel_size_m = 0.0;       ///< of `points`; 0: a point for each pixel
+  double silence_timeout_s = 2.0;  ///< without a frame, after which the node says so
+  std::string color_transport = "raw", depth_transport = "raw";
 };
 
 /// The fixed frame of bodies and tools.
@@ -55,7 +46,6 @@ struct FeatureTrackerOptions {
   std::string object;          ///< path of the object YAML, for its picture; empty: no picture
   bool allow_outside = false;  ///< files that the object YAML names may be outside of its folder
   MaskOptions mask;
-  double silence_timeout_s = 2.0;           ///< without a frame, after which the node says so
   std::vector<std::string> known_surfaces;  ///< namespaces of the topics of other bodies' surfaces
   RobotOptions robot;
 };
@@ -67,7 +57,6 @@ struct ToolTrackerOptions {
   std::string tool_frame;
   ToolTrackerConfig tracker;
   OutputFrameOptions output_frame;
-  double silence_timeout_s = 2.0;  ///< without a frame, after which the node says so
 };
 
 struct PoseMarkerOptions {

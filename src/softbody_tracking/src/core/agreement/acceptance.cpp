@@ -7,23 +7,20 @@
 
 namespace softbody {
 
-bool isShown(const RgbdFrame& frame, const TriangleMesh& mesh, const Eigen::Isometry3d& pose,
-             const RegistrationConfig& config) {
+bool isShown(const RgbdFrame& frame, const TriangleMesh& mesh, const Eigen::Isometry3d& pose) {
   const RgbdFrame small = subsampled(frame, kLargeColumns);
-  return PoseCost(small, mesh, config.distance_scale_m).agreement(pose).misfit <= config.max_cost &&
-         confinement(frame, mesh, pose, config.distance_scale_m) >= kLeastConfinement;
+  return PoseCost(small, mesh).agreement(pose).misfit <= kLargestCost &&
+         confinement(frame, mesh, pose) >= kLeastConfinement;
 }
 
-double freeCost(const RgbdFrame& frame, const TriangleMesh& mesh, const Eigen::Isometry3d& pose,
-                double distance_scale_m) {
+double freeCost(const RgbdFrame& frame, const TriangleMesh& mesh, const Eigen::Isometry3d& pose) {
   const RgbdFrame small = subsampled(frame, kLargeColumns);
-  return PoseCost(small, mesh, distance_scale_m, kOtherObject)(pose);
+  return PoseCost(small, mesh, kOtherObject)(pose);
 }
 
-bool standsFree(const RgbdFrame& frame, const TriangleMesh& mesh, const Eigen::Isometry3d& pose,
-                const RegistrationConfig& config) {
-  return freeCost(frame, mesh, pose, config.distance_scale_m) <= config.max_cost &&
-         shareWithoutEdge(frame, mesh, pose, config.distance_scale_m) <= kLargestShareWithoutEdge;
+bool standsFree(const RgbdFrame& frame, const TriangleMesh& mesh, const Eigen::Isometry3d& pose) {
+  return freeCost(frame, mesh, pose) <= kLargestCost &&
+         shareWithoutEdge(frame, mesh, pose) <= kLargestShareWithoutEdge;
 }
 
 }  // namespace softbody

@@ -42,14 +42,13 @@ double thicknessOf(const Points& vertices) {
   return (along.colwise().maxCoeff() - along.colwise().minCoeff()).minCoeff();
 }
 
-double shareWithoutEdge(const RgbdFrame& frame, const TriangleMesh& mesh, const Eigen::Isometry3d& pose,
-                        double distance_scale_m) {
+double shareWithoutEdge(const RgbdFrame& frame, const TriangleMesh& mesh, const Eigen::Isometry3d& pose) {
   static const cv::Point kSteps[4] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
   const RgbdFrame small = subsampled(frame, kLargeColumns);
   RasterImage image;
   rasterize(small.camera, transformed(mesh.vertices, pose), mesh.triangles, &image);
   const auto shows = [&](const cv::Point& pixel) { return image.triangle(pixel) >= 0; };
-  const double least_step_m = kLeastStep * std::min(distance_scale_m, thicknessOf(mesh.vertices));
+  const double least_step_m = kLeastStep * std::min(kDistanceScale_m, thicknessOf(mesh.vertices));
   const cv::Rect region = image.region & cv::Rect(3, 3, image.depth.cols - 6, image.depth.rows - 6);
   int outline = 0, without = 0;
   for (int v = region.y; v < region.br().y; ++v) {

@@ -23,7 +23,7 @@ constexpr float kFar = 1e3f;
 /// The frame that would show the posed mesh alone, before nothing, with the gaps of this frame.
 RgbdFrame aloneIn(const RgbdFrame& frame, const TriangleMesh& mesh, const Eigen::Isometry3d& pose) {
   RgbdFrame alone = frame;
-  alone.depth = PoseCost(frame, mesh, 1.0).render(pose).depth.clone();
+  alone.depth = PoseCost(frame, mesh).render(pose).depth.clone();
   alone.depth.setTo(kFar, alone.depth <= 0.0f);
   alone.depth.setTo(0.0f, ~(frame.depth > 0.0f));
   return alone;
@@ -50,7 +50,7 @@ std::vector<Eigen::Isometry3d> slides(const TriangleMesh& mesh, const Eigen::Iso
 /// By how much the cost rises with each pair of opposite motions.
 std::vector<double> rises(const RgbdFrame& frame, const TriangleMesh& mesh, const Eigen::Isometry3d& pose,
                           double scale_m, const std::vector<Eigen::Isometry3d>& motions) {
-  PoseCost cost(frame, mesh, scale_m);
+  PoseCost cost(frame, mesh, kUnseenCost, scale_m);
   const double here = cost(pose);
   std::vector<double> result;
   for (std::size_t i = 0; i < motions.size(); i += 2)
@@ -60,10 +60,9 @@ std::vector<double> rises(const RgbdFrame& frame, const TriangleMesh& mesh, cons
 
 }  // namespace
 
-double confinement(const RgbdFrame& frame, const TriangleMesh& mesh, const Eigen::Isometry3d& pose,
-                   double distance_scale_m) {
+double confinement(const RgbdFrame& frame, const TriangleMesh& mesh, const Eigen::Isometry3d& pose) {
   const RgbdFrame small = subsampled(frame, kLargeColumns);
-  const double scale_m = std::min(distance_scale_m, thicknessOf(mesh.vertices));
+  const double scale_m = std::min(kDistanceScale_m, thicknessOf(mesh.vertices));
   const std::vector<Eigen::Isometry3d> motions = slides(mesh, pose);
   const std::vector<double> measured = rises(small, mesh, pose, scale_m, motions);
   const RgbdFrame alone = aloneIn(small, mesh, pose);

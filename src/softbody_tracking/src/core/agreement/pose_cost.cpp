@@ -75,11 +75,10 @@ double renderedCost(const RgbdFrame& frame, const RasterImage& image, double sca
 
 }  // namespace
 
-PoseCost::PoseCost(const RgbdFrame& frame, const TriangleMesh& mesh, double distance_scale_m,
-                   double hidden_cost)
+PoseCost::PoseCost(const RgbdFrame& frame, const TriangleMesh& mesh, double hidden_cost, double scale)
     : frame_(frame),
       mesh_(mesh),
-      scale_(distance_scale_m),
+      scale_(scale),
       hidden_cost_(hidden_cost),
       faces_(isClosed(mesh.triangles) ? Faces::kFront : Faces::kAll) {}
 
@@ -132,8 +131,8 @@ PoseAgreement PoseCost::agreement(const Eigen::Isometry3d& pose) {
   return counts;
 }
 
-double PoseCost::support(const Eigen::Isometry3d& pose, double max_cost) {
-  const double saved = max_cost - (*this)(pose);
+double PoseCost::support(const Eigen::Isometry3d& pose) {
+  const double saved = kLargestCost - (*this)(pose);
   return saved <= 0.0 ? 0.0 : saved * cv::countNonZero(image_.depth(image_.region));
 }
 

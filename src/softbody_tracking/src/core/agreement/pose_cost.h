@@ -30,9 +30,15 @@ constexpr double kSigmaAtMetre = 0.0025;
 /// Below 1 m the camera's calibration and rounding are left.
 inline double depthSigma(double z) { return kSigmaAtMetre * z * std::max(1.0, z); }
 
+/// A pose with a larger cost is refused. Below kUnseenCost, which a pose has of which nothing is seen.
+constexpr double kLargestCost = 0.22;
+
+/// Larger differences of depth are free space or occlusion, at up to 1 m [m]: eight times the noise.
+constexpr double kDistanceScale_m = 0.02;
+
 /// The distance scale grows beyond 1 m as the noise of depth does.
 /// @param scale at up to 1 m [m].
-inline double distanceScaleAt(double z, double scale) {
+inline double distanceScaleAt(double z, double scale = kDistanceScale_m) {
   return scale * std::max(1.0, depthSigma(z) / kSigmaAtMetre);
 }
 
@@ -51,9 +57,9 @@ struct PoseAgreement {
 /// How badly a posed mesh explains a depth image. Frame and mesh must outlive it.
 class PoseCost {
  public:
-  /// @param hidden_cost of a pixel where something is nearer.
-  PoseCost(const RgbdFrame& frame, const TriangleMesh& mesh, double distance_scale_m,
-           double hidden_cost = kUnseenCost);
+  /// @param hidden_cost of a pixel where something is nearer. @param scale distance scale at up to 1 m [m].
+  PoseCost(const RgbdFrame& frame, const TriangleMesh& mesh, double hidden_cost = kUnseenCost,
+           double scale = kDistanceScale_m);
   /// A copy renders into an image of its own, so another thread can use it.
   PoseCost(const PoseCost& other);
   PoseCost& operator=(const PoseCost&) = delete;
@@ -66,9 +72,9 @@ class PoseCost {
 
   PoseAgreement agreement(const Eigen::Isometry3d& pose);
 
-  /// How much of the depth supports a pose: (max_cost - cost) times the number of covered pixels;
+  /// How much of the depth supports a pose: (kLargestCost - cost) times the number of covered pixels;
   /// 0 if the cost is higher. It prefers a large match to a few distant pixels, which could be any body.
-  double support(const Eigen::Isometry3d& pose, double max_cost);
+  double support(const Eigen::Isometry3d& pose);
 
   /// Renders the mesh. @return valid until the next call of any member.
   const RasterImage& render(const Points& vertices);

@@ -6,12 +6,9 @@ namespace {
 ParameterTable<PairingConfig> makePairingTable() {
   ParameterTable<PairingConfig> table;
   table.group("camera_ingest");
-  table.choice<bool>("sync", &PairingConfig::exact, {{"approximate", false}, {"exact", true}},
-                     "exact: stamps must be equal");
-  table.seconds("sync_tolerance_s", &PairingConfig::tolerance, {0.0001, 1.0},
-                "largest difference of stamps, if approximate");
-  table.number("queue_size", &PairingConfig::queue_size, {1, 1000}, "images",
-               "largest number of images of a stream that wait for their partner");
+  table.seconds(
+      "sync_tolerance_s", &PairingConfig::tolerance, {0.0, 1.0},
+      "largest difference of the stamps of colour and depth; 0: the driver gives both the same stamp");
   return table;
 }
 

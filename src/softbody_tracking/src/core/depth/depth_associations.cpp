@@ -35,13 +35,12 @@ struct BlockPixels {
 
 /// Around the sample, the predicted shape is the rendered one.
 BlockPixels pixelsOf(const Block& block, const RgbdFrame& frame, const RasterImage& image,
-                     const cv::Point& rendered_center, int size, int step, const Labels& labels,
-                     double reach_m) {
+                     const cv::Point& rendered_center, int size, int step, const Labels& labels) {
   const cv::Point& center = block.center;
   const Offsets columns = offsetsInside(rendered_center.x, center.x, size, frame.depth.cols);
   const Offsets rows = offsetsInside(rendered_center.y, center.y, size, frame.depth.rows);
   const auto nearer_by = static_cast<float>(block.predicted) - image.depth(rendered_center);
-  const auto gate = static_cast<float>(reach_m);
+  const auto gate = static_cast<float>(kReach_m);
   const cv::Rect& labelled = labels.region;
   BlockPixels pixels;
   for (int j = rows.first; j < rows.end; j += step) {
@@ -91,7 +90,7 @@ void classify(const BlockPixels& pixels, Block* block) {
 
 /// Moves a sample by the rigid motion, and compares it with the frame's depth there.
 Block observe(const RgbdFrame& frame, const RasterImage& image, const SurfaceSample& sample, int size,
-              int step, const Eigen::Isometry3d& motion, const Labels& labels, double reach_m) {
+              int step, const Eigen::Isometry3d& motion, const Labels& labels) {
   Block block;
   block.position = motion * sample.position;
   block.normal = motion.linear() * sample.normal;
@@ -102,7 +101,7 @@ Block observe(const RgbdFrame& frame, const RasterImage& image, const SurfaceSam
   const double slope = block.normal.dot(frame.camera.unproject(block.center.x, block.center.y, 1.0));
   if (-slope < kMinSlope) return block;
   block.predicted = block.normal.dot(block.position) / slope;
-  classify(pixelsOf(block, frame, image, sample.center, size, step, labels, reach_m), &block);
+  classify(pixelsOf(block, frame, image, sample.center, size, step, labels), &block);
   return block;
 }
 
@@ -142,8 +141,7 @@ DepthAssociations associateDepth(const RgbdFrame& frame, const RasterImage& imag
   std::vector<Block> blocks;
   blocks.reserve(surface.samples.size());
   for (const SurfaceSample& sample : surface.samples) {
-    blocks.push_back(
-        observe(frame, image, sample, surface.block_px, step, motions[sample.piece], labels, weight.reach_m));
+    blocks.push_back(observe(frame, image, sample, surface.block_px, step, motions[sample.piece], labels));
   }
   DepthAssociations found;
   if (pixel_step == 1) found.noise = sampleDepthNoise(surface, blocks, frame.camera.fx);

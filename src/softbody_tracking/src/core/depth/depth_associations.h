@@ -35,7 +35,6 @@ struct DepthBlock {
 struct DepthWeight {
   double per_area;  ///< of an area of one mean edge of the tets squared
   double edge_m;    ///< mean edge of the tets
-  double reach_m;   ///< largest distance between prediction and measurement along the ray
 };
 
 /// Associates visible surface with depth along the same rays (projective data association, point to plane).

@@ -12,10 +12,10 @@ constexpr float kSamePlacePx = 3.0f;
 
 }  // namespace
 
-int clearlyNearest(const std::vector<std::pair<int, int>>& candidates, const std::vector<Keypoint>& keypoints,
-                   int max_distance) {
+int clearlyNearest(const std::vector<std::pair<int, int>>& candidates,
+                   const std::vector<Keypoint>& keypoints) {
   const auto best = std::min_element(candidates.begin(), candidates.end());
-  if (best == candidates.end() || best->first > max_distance) return -1;
+  if (best == candidates.end() || best->first > kMaxHammingDistance) return -1;
   for (const auto& [distance, k] : candidates) {
     if (static_cast<float>(best->first) <= kRatio * static_cast<float>(distance)) continue;
     const cv::Point2f d = keypoints[k].pixel - keypoints[best->second].pixel;

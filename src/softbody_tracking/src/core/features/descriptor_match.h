@@ -7,11 +7,14 @@
 
 namespace softbody {
 
-/// The candidate whose descriptor is clearly the nearest: within max_distance, and no candidate at another
-/// place is almost as near (ratio test, Lowe 2004). @param candidates distance of the descriptors and index
-/// of the keypoint.
+/// Largest distance of descriptors of one feature, of 256 bits: those of others differ by about 128.
+constexpr int kMaxHammingDistance = 64;
+
+/// The candidate whose descriptor is clearly the nearest: within kMaxHammingDistance, and no candidate at
+/// another place is almost as near (ratio test, Lowe 2004). @param candidates distance of the descriptors and
+/// index of the keypoint.
 /// @return index into the candidates; -1 without one.
-int clearlyNearest(const std::vector<std::pair<int, int>>& candidates, const std::vector<Keypoint>& keypoints,
-                   int max_distance);
+int clearlyNearest(const std::vector<std::pair<int, int>>& candidates,
+                   const std::vector<Keypoint>& keypoints);
 
 }  // namespace softbody

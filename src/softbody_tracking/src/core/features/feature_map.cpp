@@ -8,7 +8,7 @@
 namespace softbody {
 namespace {
 
-// Largest map, in multiples of max_features; it also holds features of sides that are out of view.
+// Largest map, in multiples of those in view; it also holds features of sides that are out of view.
 constexpr int kMostKnown = 4;
 // Time [s] for which a feature must have been expected before it can be dropped.
 constexpr double kTrial_s = 0.65;
@@ -28,8 +28,7 @@ void FeatureMap::score(const ExpectedFeatures& expected, const std::vector<Featu
 
 int FeatureMap::room(int expected_in_view) const {
   const int known = static_cast<int>(features_.size());
-  return std::max(
-      0, std::min(config_.max_features - expected_in_view, kMostKnown * config_.max_features - known));
+  return std::max(0, std::min(most_ - expected_in_view, kMostKnown * most_ - known));
 }
 
 void FeatureMap::add(const std::vector<MapFeature>& features) {

@@ -5,16 +5,16 @@
 #include "features/expected_features.h"
 #include "features/feature_match.h"
 #include "features/map_feature.h"
-#include "softbody_tracking/tracker_config.h"
 
 namespace softbody {
 
 /// All known ORB features of the body. Each is bound to a place in the rest body.
 class FeatureMap {
  public:
-  explicit FeatureMap(const FeatureConfig& config) : config_(config) {}
+  /// @param most features in view.
+  explicit FeatureMap(int most) : most_(most) {}
 
-  void setConfig(const FeatureConfig& config) { config_ = config; }
+  void setMost(int most) { most_ = most; }
 
   const std::vector<MapFeature>& features() const { return features_; }
 
@@ -40,7 +40,7 @@ class FeatureMap {
   void reset();
 
  private:
-  FeatureConfig config_;
+  int most_;
   std::vector<MapFeature> features_;
   int next_id_ = 0;
 };

@@ -22,8 +22,8 @@ constexpr float kSmallestCorrelation = 0.75f;
 /// The keypoint in the window with clearly the best descriptor. @return its index and distance; empty without
 /// one.
 std::optional<std::pair<int, int>> bestKeypoint(const Descriptor& descriptor, const cv::Point2f& expected,
-                                                const std::vector<Keypoint>& keypoints, const PixelGrid& grid,
-                                                int max_hamming_distance) {
+                                                const std::vector<Keypoint>& keypoints,
+                                                const PixelGrid& grid) {
   constexpr float kRadius2 = kWideSearchPx * kWideSearchPx;
   std::vector<std::pair<int, int>> candidates;  // distance, keypoint
   grid.around(expected.x, expected.y, [&](int k) {
@@ -31,7 +31,7 @@ std::optional<std::pair<int, int>> bestKeypoint(const Descriptor& descriptor, co
     if (d.dot(d) <= kRadius2)
       candidates.emplace_back(hammingDistance(descriptor, keypoints[k].descriptor), k);
   });
-  const int best = clearlyNearest(candidates, keypoints, max_hamming_distance);
+  const int best = clearlyNearest(candidates, keypoints);
   if (best < 0) return std::nullopt;
   return std::make_pair(candidates[best].second, candidates[best].first);
 }
@@ -104,7 +104,7 @@ FeatureMatches FeatureMatcher::alignOthers(const ExpectedFeatures& expected, int
 }
 
 void FeatureMatcher::alignOne(const ExpectedFeature& expected, FeatureMatches* found) const {
-  if (const auto found_here = match(expected, expected.pixel, config_.search_radius_px))
+  if (const auto found_here = match(expected, expected.pixel, kSearchRadius_px))
     found->matches.push_back(*found_here);
   else
     found->missed.push_back(expected);
@@ -133,7 +133,7 @@ std::optional<FeatureMatch> FeatureMatcher::match(const ExpectedFeature& expecte
   if (z <= 0.0) return std::nullopt;
   FeatureMatch match = matchAt(features_[expected.feature], expected, pixel, z, frame_.camera);
   match.unexplained = 1.0 - found->correlation * found->correlation;
-  match.association.weight = config_.weight * trustIn(features_[expected.feature]);
+  match.association.weight = kFeatureWeight * trustIn(features_[expected.feature]);
   return match;
 }
 
@@ -144,8 +144,7 @@ std::vector<FeatureMatch> FeatureMatcher::matchDescriptors(const std::vector<Exp
   std::vector<int> owner(keypoints.size(), -1),
       owner_distance(keypoints.size(), std::numeric_limits<int>::max());
   for (std::size_t m = 0; m < missed.size(); ++m) {
-    const auto best = bestKeypoint(features_[missed[m].feature].descriptor, missed[m].pixel, keypoints, grid,
-                                   config_.max_hamming_distance);
+    const auto best = bestKeypoint(features_[missed[m].feature].descriptor, missed[m].pixel, keypoints, grid);
     if (!best) continue;
     const auto& [k, distance] = *best;
     if (distance >= owner_distance[k]) continue;

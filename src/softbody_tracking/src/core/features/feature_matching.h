@@ -8,12 +8,15 @@
 #include "features/orb_extractor.h"
 #include "patches/gray_pyramid.h"
 #include "softbody_tracking/rgbd_frame.h"
-#include "softbody_tracking/tracker_config.h"
 
 namespace softbody {
 
 /// Distance from the expected pixel up to which descriptors are matched, if patches are not found [px].
 constexpr int kWideSearchPx = 64;
+/// Distance from the expected pixel up to which patches are aligned [px]: from one frame to the next.
+constexpr int kSearchRadius_px = 20;
+/// Weight of a feature target whose patch fits: its standard deviation is 1.4 times that of weight 1.
+constexpr double kFeatureWeight = 0.5;
 
 struct FeatureMatches {
   std::vector<FeatureMatch> matches;
@@ -24,9 +27,8 @@ struct FeatureMatches {
 /// by descriptors if they moved too far. The arguments must outlive it.
 class FeatureMatcher {
  public:
-  FeatureMatcher(const FeatureConfig& config, const std::vector<MapFeature>& features, const RgbdFrame& frame,
-                 const GrayPyramid& image)
-      : config_(config), features_(features), frame_(frame), image_(image) {}
+  FeatureMatcher(const std::vector<MapFeature>& features, const RgbdFrame& frame, const GrayPyramid& image)
+      : features_(features), frame_(frame), image_(image) {}
 
   /// Aligns the patches of all expected features.
   FeatureMatches alignAll(const ExpectedFeatures& expected) const;
@@ -47,7 +49,6 @@ class FeatureMatcher {
   std::optional<FeatureMatch> match(const ExpectedFeature& expected, const cv::Point2f& start,
                                     int radius_px) const;
 
-  const FeatureConfig& config_;
   const std::vector<MapFeature>& features_;
   const RgbdFrame& frame_;
   const GrayPyramid& image_;

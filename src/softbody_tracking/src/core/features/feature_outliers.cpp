@@ -11,6 +11,8 @@ namespace {
 
 // Largest motion of a feature between prediction and frame [m]: 3 m/s at 30 Hz. More is a wrong match.
 constexpr double kLargestMotion = 0.1;
+// The same, in any direction, from its neighbours, or from the prediction where there are few [m].
+constexpr double kMaxDisagreement_m = 0.006;
 // Cells [px] for the search of neighbours: a few patches wide.
 constexpr int kNeighborhoodPx = 40;
 // Matches of a piece, below which its motion cannot be estimated.
@@ -175,10 +177,9 @@ class Motions {
 class PieceOutliers {
  public:
   /// @param piece its matches, at least kFewest.
-  PieceOutliers(const Pinhole& camera, double max_disagreement_m, const std::vector<int>& piece,
-                Motions* motions, std::vector<FeatureMatch>* matches)
+  PieceOutliers(const Pinhole& camera, const std::vector<int>& piece, Motions* motions,
+                std::vector<FeatureMatch>* matches)
       : fx_(camera.fx),
-        max_disagreement_m_(max_disagreement_m),
         motions_(*motions),
         matches_(*matches),
         grid_(camera, kNeighborhoodPx),
@@ -214,7 +215,7 @@ class PieceOutliers {
   bool agrees(int m, const LinearMotion& around, double across) const {
     const FeatureMatch& match = matches_[m];
     return match.inlier && motions_.disagreement(m, around) < across &&
-           (motions_.of(m) - around.at(match.pixel)).norm() < max_disagreement_m_;
+           (motions_.of(m) - around.at(match.pixel)).norm() < kMaxDisagreement_m;
   }
 
   /// Keeps the matches of a limb. A limb that bends moves otherwise than the many features of the body, but
@@ -256,7 +257,6 @@ class PieceOutliers {
   }
 
   double fx_;
-  double max_disagreement_m_;
   Motions& motions_;
   std::vector<FeatureMatch>& matches_;
   PixelGrid grid_;
@@ -265,7 +265,7 @@ class PieceOutliers {
 
 }  // namespace
 
-void markOutliers(const Pinhole& camera, double max_disagreement_m, std::vector<FeatureMatch>* matches) {
+void markOutliers(const Pinhole& camera, std::vector<FeatureMatch>* matches) {
   Motions motions(*matches);
   std::vector<std::vector<int>> pieces;
   for (std::size_t m = 0; m < matches->size(); ++m) {
@@ -276,12 +276,12 @@ void markOutliers(const Pinhole& camera, double max_disagreement_m, std::vector<
   }
   for (const std::vector<int>& piece : pieces) {
     if (piece.size() >= kFewest) {
-      PieceOutliers(camera, max_disagreement_m, piece, &motions, matches).mark();
+      PieceOutliers(camera, piece, &motions, matches).mark();
       continue;
     }
     for (int m : piece) {
       FeatureMatch& match = (*matches)[m];
-      match.inlier = match.inlier && motions.of(m).norm() < max_disagreement_m;
+      match.inlier = match.inlier && motions.of(m).norm() < kMaxDisagreement_m;
     }
   }
 }

@@ -12,7 +12,7 @@ namespace softbody {
 /// starts from the motion of the whole piece, so that a group of wrong matches does not determine it.
 /// Exception: twenty matches that lie together, move alike and are only a few pixels off are kept, because
 /// they are a limb.
-/// @param max_disagreement_m in any direction. Across the ray, 1.5 to 4 pixels are allowed.
-void markOutliers(const Pinhole& camera, double max_disagreement_m, std::vector<FeatureMatch>* matches);
+/// Across the ray, 1.5 to 4 pixels are allowed.
+void markOutliers(const Pinhole& camera, std::vector<FeatureMatch>* matches);
 
 }  // namespace softbody

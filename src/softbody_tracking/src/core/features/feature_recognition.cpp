@@ -6,6 +6,7 @@
 #include <random>
 #include <utility>
 
+#include "features/descriptor_match.h"
 #include "features/feature_matching.h"
 #include "softbody_common/geometry/rigid_fit.h"
 #include "softbody_common/geometry/tet_geometry.h"
@@ -29,19 +30,19 @@ constexpr double kDepthPrecision = 0.002;
 /// For each keypoint, the feature whose nearest descriptor it has; null without one. There is no ratio test:
 /// wrong pairs do not agree on one motion.
 std::vector<const MapFeature*> ownersOf(const std::vector<Keypoint>& keypoints,
-                                        const std::vector<MapFeature>& features, int max_hamming_distance) {
+                                        const std::vector<MapFeature>& features) {
   std::vector<const MapFeature*> owners(keypoints.size(), nullptr);
   std::vector<int> owner_distances(keypoints.size());
   for (const MapFeature& feature : features) {
     std::size_t nearest = 0;
-    int least = max_hamming_distance + 1;
+    int least = kMaxHammingDistance + 1;
     for (std::size_t k = 0; k < keypoints.size(); ++k) {
       const int distance = hammingDistance(feature.descriptor, keypoints[k].descriptor);
       if (distance >= least) continue;
       nearest = k;
       least = distance;
     }
-    if (least > max_hamming_distance) continue;
+    if (least > kMaxHammingDistance) continue;
     if (owners[nearest] != nullptr && owner_distances[nearest] <= least) continue;
     owners[nearest] = &feature;
     owner_distances[nearest] = least;
@@ -86,9 +87,9 @@ std::vector<const PointPair*> agreeing(const std::vector<PointPair>& pairs, cons
 
 std::vector<PointPair> recognizedFeatures(const RgbdFrame& frame, const std::vector<MapFeature>& features,
                                           const std::vector<Keypoint>& keypoints, const SurfaceModel& model,
-                                          const Points& vertices, int max_hamming_distance) {
+                                          const Points& vertices) {
   std::vector<PointPair> pairs;
-  const std::vector<const MapFeature*> owners = ownersOf(keypoints, features, max_hamming_distance);
+  const std::vector<const MapFeature*> owners = ownersOf(keypoints, features);
   for (std::size_t k = 0; k < keypoints.size(); ++k) {
     if (owners[k] == nullptr) continue;
     const cv::Point2f& pixel = keypoints[k].pixel;

@@ -16,10 +16,10 @@ struct PointPair {
 };
 
 /// Pairs keypoints of the whole image with the known features that look most like them, one to one.
-/// @param vertices of the volume, as expected. @param max_hamming_distance between descriptors, of 256 bits.
+/// @param vertices of the volume, as expected.
 std::vector<PointPair> recognizedFeatures(const RgbdFrame& frame, const std::vector<MapFeature>& features,
                                           const std::vector<Keypoint>& keypoints, const SurfaceModel& model,
-                                          const Points& vertices, int max_hamming_distance);
+                                          const Points& vertices);
 
 /// Largest error of a correct pair after a rigid motion [m]. It is not 0, because the piece is deformed and
 /// depth is noisy.

@@ -33,7 +33,7 @@ cv::Mat1f meanOnBody(const cv::Mat1f& log_odds, const cv::Mat1f& rendered) {
 }  // namespace
 
 Labels labelsOf(const RgbdFrame& frame, const PredictedSurface& surface, const SurfaceSamples& samples,
-                const RegionColors& colors, const LabelMemory& last, double reach_m, double error_m) {
+                const RegionColors& colors, const LabelMemory& last, double error_m) {
   Labels labels;
   labels.error_m = error_m;
   if (samples.samples.empty()) return labels;
@@ -44,11 +44,10 @@ Labels labelsOf(const RgbdFrame& frame, const PredictedSurface& surface, const S
   labels.label.create(labels.region.size());
   labels.log_odds.create(labels.region.size());
   labels.predicted.create(labels.region.size());
-  const PixelLabeler pixels(frame, surface.image(), colors, reach_m);
+  const PixelLabeler pixels(frame, surface.image(), colors);
   forEachCell(image, &cells,
               [&](const cv::Rect& area, LabelCell* cell) { pixels.label(area, cell, &labels); });
-  tellOccluders(samples, {last, frame.camera.fx, reach_m, error_m, cvRound(kReach * frame.camera.fx)},
-                &cells);
+  tellOccluders(samples, {last, frame.camera.fx, error_m, cvRound(kReach * frame.camera.fx)}, &cells);
   const cv::Mat1f mean_odds = meanOnBody(labels.log_odds, surface.image().depth(labels.region));
   forEachCell(image, &cells,
               [&](const cv::Rect& area, LabelCell* cell) { pixels.decide(area, *cell, mean_odds, &labels); });

@@ -11,9 +11,8 @@ namespace softbody {
 /// body. First each pixel is judged by its depth beside the prediction and by its colour, then cells of
 /// pixels by these, by the cells beside them and by the last frame.
 /// @param samples of the rendered surface. @param last memory of the last frame's labels; may be empty.
-/// @param reach_m the body is not farther from its prediction than this, along the ray.
 /// @param error_m how far predictions were off in the last frames.
 Labels labelsOf(const RgbdFrame& frame, const PredictedSurface& surface, const SurfaceSamples& samples,
-                const RegionColors& colors, const LabelMemory& last, double reach_m, double error_m);
+                const RegionColors& colors, const LabelMemory& last, double error_m);
 
 }  // namespace softbody

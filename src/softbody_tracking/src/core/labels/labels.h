@@ -10,6 +10,8 @@ namespace softbody {
 
 /// How far from its prediction anything is looked for in the image [rad]: 16 px with 640 x 480 pixels.
 constexpr double kReach = 0.026;
+/// The body is not farther from its prediction than this, along the ray [m]: 1.2 m/s at 30 Hz.
+constexpr double kReach_m = 0.04;
 
 /// What the pixels around the predicted body show. Labels belong to the image: if the prediction moves a
 /// little, they stay.

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "labels/depth_evidence.h"
+#include "labels/labels.h"
 #include "statistics/median.h"
 
 namespace softbody {
@@ -72,7 +73,7 @@ double ownLogOdds(const LabelCell& cell, const Excess& excess, const LabelPrior&
   const double beside_m = cell.distance * size_px * per_px;
   const double outside = beside_m / (prior.error_m + kOutlineDeviation * cell.predicted);
   return kPredicted - 0.5 * outside * outside + cell.color_odds +
-         DepthEvidence::logOddsBeforeBody(std::max(excess.of(cell), -prior.reach_m),
+         DepthEvidence::logOddsBeforeBody(std::max(excess.of(cell), -kReach_m),
                                           std::hypot(excess.deviation(cell), beside_m));
 }
 

@@ -9,7 +9,6 @@ namespace softbody {
 struct LabelPrior {
   const LabelMemory& last;  ///< of the last frame; empty: nothing is known
   double focal_px;
-  double reach_m;  ///< the body is not farther from its prediction than this, along the ray
   double error_m;  ///< how far predictions were off in the last frames
   int reach_px;    ///< the farthest that anything moves in a frame
 };

@@ -26,7 +26,7 @@ inline std::uint8_t PixelLabeler::labelOf(float measured, float predicted, int s
   if (!(measured > 0.0f)) return labels::kUnknown;
   const float of_color = *log_odds, difference = measured - predicted;
   *log_odds += clamped(colors_.depthLogOdds(difference, predicted, sector), kDepthLimit);
-  const bool body = std::abs(difference) <= reach_m_ && *log_odds > 0.0f;
+  const bool body = std::abs(difference) <= static_cast<float>(kReach_m) && *log_odds > 0.0f;
   const bool front = body || difference <= kBehindSurface;
   ++sums->measured;
   sums->front += front ? 1 : 0;
@@ -117,7 +117,8 @@ std::uint8_t PixelLabeler::frontLabel(const LabelCell& cell, float measured, flo
   const float difference = measured - (rendered > 0.0f ? rendered : cell.predicted);
   if (!cell.showsOccluder()) {
     const bool alone = cell.beside_occluder || rendered <= 0.0f;
-    const bool body = alone ? body_alone : std::abs(difference) <= reach_m_ && mean_odds > 0.0f;
+    const bool body =
+        alone ? body_alone : std::abs(difference) <= static_cast<float>(kReach_m) && mean_odds > 0.0f;
     return body ? labels::kBody : labels::kOccluder;
   }
   const bool nearer_to_body = difference > 0.5f * (cell.shift + cell.difference);

@@ -13,14 +13,12 @@ namespace softbody {
 /// Labels each pixel on its own, by its depth beside the prediction and by its colour.
 class PixelLabeler {
  public:
-  /// @param rendered depth of the prediction. @param reach_m the body is not farther from it than this.
-  PixelLabeler(const RgbdFrame& frame, const RasterImage& rendered, const RegionColors& colors,
-               double reach_m)
+  /// @param rendered depth of the prediction.
+  PixelLabeler(const RgbdFrame& frame, const RasterImage& rendered, const RegionColors& colors)
       : frame_(frame),
         rendered_(rendered.depth),
         sectors_(rendered.region),
         colors_(colors),
-        reach_m_(static_cast<float>(reach_m)),
         knows_(!frame.covered.empty() || !frame.known.empty()) {}
 
   /// Labels the pixels of a cell, and sums up in the cell what they show. On the surface only those count on
@@ -54,7 +52,6 @@ class PixelLabeler {
   const cv::Mat1f& rendered_;
   Sectors sectors_;
   const RegionColors& colors_;
-  float reach_m_;
   bool knows_;  ///< known things are in view
 };
 

@@ -56,8 +56,7 @@ RgbdFrame colorFrame(const RgbdFrame& frame) {
 }
 
 std::vector<ColorPatch> colorPatches(const RgbdFrame& frame, const TriangleMesh& mesh,
-                                     const BakedPicture& picture, const Eigen::Isometry3d& pose,
-                                     double distance_scale_m) {
+                                     const BakedPicture& picture, const Eigen::Isometry3d& pose) {
   const Points vertices = transformed(mesh.vertices, pose);
   RasterImage image;
   rasterize(frame.camera, vertices, mesh.triangles, &image);
@@ -66,7 +65,7 @@ std::vector<ColorPatch> colorPatches(const RgbdFrame& frame, const TriangleMesh&
   for (int v = image.region.y; v < image.region.br().y; ++v) {
     for (int u = image.region.x; u < image.region.br().x; ++u) {
       const double z = image.depth(v, u), difference = std::abs(frame.depth(v, u) - z);
-      if (!isInside(image, v, u) || !(difference < distanceScaleAt(z, distance_scale_m))) continue;
+      if (!isInside(image, v, u) || !(difference < distanceScaleAt(z))) continue;
       const cv::Vec3b& seen = frame.color(v, u);
       if (std::max({seen[0], seen[1], seen[2]}) >= kSaturated) continue;
       const int f = image.triangle(v, u);

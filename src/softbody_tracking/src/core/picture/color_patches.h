@@ -26,10 +26,8 @@ struct ColorPatch {
 RgbdFrame colorFrame(const RgbdFrame& frame);
 
 /// The patches in which at least half of the pixels show the posed mesh by their depth.
-/// @param frame from colorFrame(). @param distance_scale_m see PoseCost; larger differences are another
-/// object.
+/// @param frame from colorFrame().
 std::vector<ColorPatch> colorPatches(const RgbdFrame& frame, const TriangleMesh& mesh,
-                                     const BakedPicture& picture, const Eigen::Isometry3d& pose,
-                                     double distance_scale_m);
+                                     const BakedPicture& picture, const Eigen::Isometry3d& pose);
 
 }  // namespace softbody

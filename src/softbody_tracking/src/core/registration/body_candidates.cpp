@@ -192,12 +192,11 @@ double spreadOf(const std::vector<Eigen::Vector3d>& points) {
   return std::sqrt(6.0 * sum / static_cast<double>(points.size()));
 }
 
-std::vector<DepthPart> findDepthParts(const RgbdFrame& frame, const RegionColors& colors, double diameter_m,
-                                      double distance_scale_m) {
+std::vector<DepthPart> findDepthParts(const RgbdFrame& frame, const RegionColors& colors, double diameter_m) {
   Cloud cloud = makeCloud(frame, colors);
   removePlanes(diameter_m, &cloud);
   // Smaller steps are noise.
-  const double step_m = std::max(distance_scale_m, kLargestStep * diameter_m);
+  const double step_m = std::max(kDistanceScale_m, kLargestStep * diameter_m);
   std::vector<DepthPart> parts;
   std::vector<bool> free = cloud.free;
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
@@ -212,9 +211,9 @@ std::vector<DepthPart> findDepthParts(const RgbdFrame& frame, const RegionColors
 }
 
 std::vector<BodyCandidate> findBodyCandidates(const RgbdFrame& frame, const RegionColors& colors,
-                                              double diameter_m, double distance_scale_m) {
+                                              double diameter_m) {
   std::vector<BodyCandidate> candidates;
-  for (const DepthPart& part : findDepthParts(frame, colors, diameter_m, distance_scale_m))
+  for (const DepthPart& part : findDepthParts(frame, colors, diameter_m))
     if (part.fits) candidates.push_back(part.candidate);
   return candidates;
 }

@@ -34,14 +34,13 @@ double spreadOf(const std::vector<Eigen::Vector3d>& points);
 
 /// All parts of the depth image outside of large planes, the likeliest first. Parameters as
 /// findBodyCandidates().
-std::vector<DepthPart> findDepthParts(const RgbdFrame& frame, const RegionColors& colors, double diameter_m,
-                                      double distance_scale_m);
+std::vector<DepthPart> findDepthParts(const RgbdFrame& frame, const RegionColors& colors, double diameter_m);
 
 /// Parts of the depth image that may be the body, the likeliest first. A candidate has about the body's size
 /// and is connected in depth. If the body's colours are known, it has these colours. It does not lie on a
 /// plane much larger than the body (a table, a wall), even if objects before this plane divide it.
-/// @param diameter_m of the body. @param distance_scale_m see PoseCost.
+/// @param diameter_m of the body.
 std::vector<BodyCandidate> findBodyCandidates(const RgbdFrame& frame, const RegionColors& colors,
-                                              double diameter_m, double distance_scale_m);
+                                              double diameter_m);
 
 }  // namespace softbody

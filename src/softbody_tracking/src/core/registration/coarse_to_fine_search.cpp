@@ -14,10 +14,10 @@ namespace {
 // Iterations of the ICP from each start; more of them make no other pose the best.
 constexpr int kIterations = 10;
 
-std::vector<PoseHypothesis> ranked(PoseCost* cost, double max_cost, std::vector<PoseHypothesis> poses) {
+std::vector<PoseHypothesis> ranked(PoseCost* cost, std::vector<PoseHypothesis> poses) {
   std::vector<std::pair<double, PoseHypothesis>> rated;
   rated.reserve(poses.size());
-  for (const PoseHypothesis& pose : poses) rated.emplace_back(-cost->support(pose.pose, max_cost), pose);
+  for (const PoseHypothesis& pose : poses) rated.emplace_back(-cost->support(pose.pose), pose);
   std::stable_sort(rated.begin(), rated.end(), [](const auto& a, const auto& b) {
     return std::tie(a.first, a.second.cost) < std::tie(b.first, b.second.cost);
   });
@@ -33,15 +33,13 @@ void sortByCost(std::vector<PoseHypothesis>* poses) {
 }
 
 CoarseToFineSearch::CoarseToFineSearch(const RgbdFrame& frame, const SearchMeshes& meshes,
-                                       const RegistrationConfig& config,
                                        const std::optional<RoughPose>& rough)
-    : max_cost_(config.max_cost),
-      small_(subsampled(frame, kSmallColumns)),
+    : small_(subsampled(frame, kSmallColumns)),
       medium_(subsampled(frame, kMediumColumns)),
       large_(subsampled(frame, kLargeColumns)),
-      alignment_(small_, meshes.coarse, config.distance_scale_m, rough),
-      refinement_(medium_, meshes.coarse, config.distance_scale_m, rough),
-      polishing_(large_, meshes.fine, config.distance_scale_m, rough) {}
+      alignment_(small_, meshes.coarse, rough),
+      refinement_(medium_, meshes.coarse, rough),
+      polishing_(large_, meshes.fine, rough) {}
 
 Eigen::Isometry3d CoarseToFineSearch::turned(const Eigen::Isometry3d& pose,
                                              const Eigen::Vector3d& turn) const {
@@ -86,11 +84,11 @@ std::vector<PoseHypothesis> CoarseToFineSearch::polish(std::vector<PoseHypothesi
 }
 
 std::vector<PoseHypothesis> CoarseToFineSearch::rankRefined(std::vector<PoseHypothesis> poses) {
-  return ranked(&refinement_.cost(), max_cost_, std::move(poses));
+  return ranked(&refinement_.cost(), std::move(poses));
 }
 
 std::vector<PoseHypothesis> CoarseToFineSearch::rankPolished(std::vector<PoseHypothesis> poses) {
-  return ranked(&polishing_.cost(), max_cost_, std::move(poses));
+  return ranked(&polishing_.cost(), std::move(poses));
 }
 
 }  // namespace softbody

@@ -21,7 +21,7 @@ void sortByCost(std::vector<PoseHypothesis>* poses);
 class CoarseToFineSearch {
  public:
   /// @param rough see PoseRefinement.
-  CoarseToFineSearch(const RgbdFrame& frame, const SearchMeshes& meshes, const RegistrationConfig& config,
+  CoarseToFineSearch(const RgbdFrame& frame, const SearchMeshes& meshes,
                      const std::optional<RoughPose>& rough = std::nullopt);
   CoarseToFineSearch(const CoarseToFineSearch&) = delete;
   CoarseToFineSearch& operator=(const CoarseToFineSearch&) = delete;
@@ -52,7 +52,6 @@ class CoarseToFineSearch {
   const RgbdFrame& mediumFrame() const { return medium_; }
 
  private:
-  double max_cost_;
   RgbdFrame small_, medium_, large_;
   PoseRefinement alignment_, refinement_, polishing_;
 };

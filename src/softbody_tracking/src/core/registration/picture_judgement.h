@@ -20,11 +20,11 @@ struct PicturedPose {
 /// Compares the body's picture with one frame. The meshes must have a picture, and outlive it.
 class PictureJudge {
  public:
-  PictureJudge(const RgbdFrame& frame, const SearchMeshes& meshes, const RegistrationConfig& config)
-      : frame_(colorFrame(frame)), meshes_(meshes), scale_m_(config.distance_scale_m) {}
+  PictureJudge(const RgbdFrame& frame, const SearchMeshes& meshes)
+      : frame_(colorFrame(frame)), meshes_(meshes) {}
 
   PictureFit fitAt(const Eigen::Isometry3d& pose) const {
-    return pictureFit(colorPatches(frame_, meshes_.full, meshes_.picture, pose, scale_m_));
+    return pictureFit(colorPatches(frame_, meshes_.full, meshes_.picture, pose));
   }
   /// The same for all, the one with the most evidence first.
   std::vector<PicturedPose> judged(const std::vector<PoseHypothesis>& poses) const;
@@ -32,7 +32,6 @@ class PictureJudge {
  private:
   RgbdFrame frame_;
   const SearchMeshes& meshes_;
-  double scale_m_;
 };
 
 /// Where the picture is seen.

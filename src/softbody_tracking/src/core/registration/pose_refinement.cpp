@@ -44,13 +44,12 @@ AreaMoments areaMoments(const TriangleMesh& mesh) {
 
 }  // namespace
 
-PoseRefinement::PoseRefinement(const RgbdFrame& frame, const TriangleMesh& mesh, double distance_scale_m,
+PoseRefinement::PoseRefinement(const RgbdFrame& frame, const TriangleMesh& mesh,
                                const std::optional<RoughPose>& rough)
     : frame_(frame),
       mesh_(mesh),
-      scale_(distance_scale_m),
       rough_(rough),
-      cost_(frame, mesh, distance_scale_m),
+      cost_(frame, mesh),
       diameter_m_((mesh.vertices.colwise().maxCoeff() - mesh.vertices.colwise().minCoeff()).norm()) {
   const AreaMoments moments = areaMoments(mesh);
   center_ = moments.center;
@@ -62,7 +61,7 @@ double PoseRefinement::pixelAt(const Eigen::Isometry3d& pose) const {
 }
 
 double PoseRefinement::scaleAt(const Eigen::Isometry3d& pose) const {
-  return distanceScaleAt((pose * center_).z(), scale_);
+  return distanceScaleAt((pose * center_).z());
 }
 
 double PoseRefinement::rankedCost(const Eigen::Isometry3d& pose) {

@@ -17,8 +17,7 @@ class PoseRefinement {
  public:
   /// @param rough among poses with nearly equal cost, for example those of a torus turned about its axis, the
   /// nearest to this one wins.
-  PoseRefinement(const RgbdFrame& frame, const TriangleMesh& mesh, double distance_scale_m,
-                 const std::optional<RoughPose>& rough);
+  PoseRefinement(const RgbdFrame& frame, const TriangleMesh& mesh, const std::optional<RoughPose>& rough);
 
   /// PoseCost, plus a penalty for the turn and the distance from the rough pose, in standard deviations.
   double rankedCost(const Eigen::Isometry3d& pose);
@@ -56,7 +55,6 @@ class PoseRefinement {
 
   const RgbdFrame& frame_;
   const TriangleMesh& mesh_;
-  double scale_;
   std::optional<RoughPose> rough_;
   PoseCost cost_;
   double diameter_m_;

@@ -20,10 +20,8 @@ constexpr std::size_t kKeptWithPicture = 24;
 /// The starts at each place where the body may be.
 std::vector<std::vector<Eigen::Isometry3d>> startsByPlace(const RgbdFrame& frame, const RegionColors& colors,
                                                           const SearchMeshes& meshes,
-                                                          const std::vector<Eigen::Isometry3d>& guesses,
-                                                          const RegistrationConfig& config) {
-  std::vector<BodyCandidate> candidates =
-      findBodyCandidates(frame, colors, meshes.diameter_m, config.distance_scale_m);
+                                                          const std::vector<Eigen::Isometry3d>& guesses) {
+  std::vector<BodyCandidate> candidates = findBodyCandidates(frame, colors, meshes.diameter_m);
   candidates.resize(std::min(candidates.size(), kKept));
   std::vector<std::vector<Eigen::Isometry3d>> result;
   if (!guesses.empty()) result.push_back(guesses);
@@ -33,19 +31,19 @@ std::vector<std::vector<Eigen::Isometry3d>> startsByPlace(const RgbdFrame& frame
 }
 
 /// Adds the poses of one place at which the picture fits best.
-void addPictured(const RgbdFrame& frame, const SearchMeshes& meshes, const RegistrationConfig& config,
-                 const std::vector<PoseHypothesis>& here, std::vector<PoseHypothesis>* poses) {
-  std::vector<PicturedPose> judged = PictureJudge(frame, meshes, config).judged(here);
+void addPictured(const RgbdFrame& frame, const SearchMeshes& meshes, const std::vector<PoseHypothesis>& here,
+                 std::vector<PoseHypothesis>* poses) {
+  std::vector<PicturedPose> judged = PictureJudge(frame, meshes).judged(here);
   judged.resize(std::min(judged.size(), kKept));
   for (const PicturedPose& pose : judged) poses->push_back(pose.pose);
 }
 
 /// Leaves out the poses at which something else than the picture is seen. @return where it is seen.
 PicturedPlace judgeByPicture(const RgbdFrame& frame, const SearchMeshes& meshes,
-                             const RegistrationConfig& config, std::vector<PoseHypothesis>* poses) {
+                             std::vector<PoseHypothesis>* poses) {
   if (meshes.picture.empty()) return {};
   const int tried = static_cast<int>(poses->size());
-  const PictureJudge judge(frame, meshes, config);
+  const PictureJudge judge(frame, meshes);
   const auto is_another = [&](const PoseHypothesis& pose) {
     return pictureDisagrees(judge.fitAt(pose.pose), tried);
   };
@@ -66,16 +64,15 @@ std::vector<PoseHypothesis>::iterator groupAlike(const SearchMeshes& meshes,
 
 std::vector<PoseHypothesis> posesAnywhere(const RgbdFrame& frame, const RegionColors& colors,
                                           const SearchMeshes& meshes,
-                                          const std::vector<Eigen::Isometry3d>& guesses,
-                                          const RegistrationConfig& config) {
-  CoarseToFineSearch search(frame, meshes, config);
+                                          const std::vector<Eigen::Isometry3d>& guesses) {
+  CoarseToFineSearch search(frame, meshes);
   std::vector<PoseHypothesis> found, best_of_places;
   const std::size_t kept = meshes.picture.empty() ? kKept : kKeptWithPicture;
-  for (const auto& starts : startsByPlace(search.mediumFrame(), colors, meshes, guesses, config)) {
+  for (const auto& starts : startsByPlace(search.mediumFrame(), colors, meshes, guesses)) {
     const std::vector<PoseHypothesis> here =
         search.rankRefined(search.refine(distinct(meshes, search.align(starts), kept)));
     best_of_places.push_back(here.front());
-    if (!meshes.picture.empty()) addPictured(frame, meshes, config, here, &best_of_places);
+    if (!meshes.picture.empty()) addPictured(frame, meshes, here, &best_of_places);
     found.insert(found.end(), here.begin(), here.end());
   }
   found = distinct(meshes, search.rankRefined(std::move(found)), kKept);
@@ -88,23 +85,23 @@ std::vector<PoseHypothesis> posesAnywhere(const RgbdFrame& frame, const RegionCo
 
 SearchOutcome searchAnywhere(const RgbdFrame& frame, const RegionColors& colors, const SearchMeshes& meshes,
                              const std::vector<Eigen::Isometry3d>& guesses, const FeatureShare& feature_share,
-                             const RegistrationConfig& config, const std::optional<RoughPose>& expected) {
-  std::vector<PoseHypothesis> found = posesAnywhere(frame, colors, meshes, guesses, config);
+                             const std::optional<RoughPose>& expected) {
+  std::vector<PoseHypothesis> found = posesAnywhere(frame, colors, meshes, guesses);
   SearchOutcome outcome;
   if (!found.empty()) outcome.best = found.front();
   const auto implausible = [&](const PoseHypothesis& pose) {
-    return !isShown(frame, meshes.fine, pose.pose, config);
+    return !isShown(frame, meshes.fine, pose.pose);
   };
   // Without its features the body is taken where it is expected, or where it stands free.
   const auto is_likely = [&](const Eigen::Isometry3d& pose) {
     const Eigen::Vector3d center = meshes.full.vertices.colwise().mean();
     if (expected) return deviationFrom(*expected, pose, center).shift <= kDoubt;
-    return standsFree(frame, meshes.fine, pose, config);
+    return standsFree(frame, meshes.fine, pose);
   };
   const std::size_t tried = found.size();
   found.erase(std::remove_if(found.begin(), found.end(), implausible), found.end());
   const std::size_t plausible = found.size();
-  const PicturedPlace pictured = judgeByPicture(frame, meshes, config, &found);
+  const PicturedPlace pictured = judgeByPicture(frame, meshes, &found);
   const RefusedPoses refused{tried, tried - plausible, plausible - found.size(), pictured.several};
   for (bool first = true; !found.empty();) {
     const auto others = groupAlike(meshes, &found);

@@ -20,8 +20,7 @@ namespace softbody {
 /// candidate; the ones with the most depth support come first. Empty without candidates.
 std::vector<PoseHypothesis> posesAnywhere(const RgbdFrame& frame, const RegionColors& colors,
                                           const SearchMeshes& meshes,
-                                          const std::vector<Eigen::Isometry3d>& guesses,
-                                          const RegistrationConfig& config);
+                                          const std::vector<Eigen::Isometry3d>& guesses);
 
 /// Finds the body without a pose. Among poses that look alike in depth, the one with the most features wins.
 /// If features contradict a place, or cannot decide, the next place is tried; there the features must confirm
@@ -30,7 +29,6 @@ std::vector<PoseHypothesis> posesAnywhere(const RgbdFrame& frame, const RegionCo
 /// confirm it; its turn does not matter.
 SearchOutcome searchAnywhere(const RgbdFrame& frame, const RegionColors& colors, const SearchMeshes& meshes,
                              const std::vector<Eigen::Isometry3d>& guesses, const FeatureShare& feature_share,
-                             const RegistrationConfig& config,
                              const std::optional<RoughPose>& expected = std::nullopt);
 
 }  // namespace softbody

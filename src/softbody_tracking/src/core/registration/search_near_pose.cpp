@@ -42,10 +42,10 @@ std::vector<PoseHypothesis> alikeNear(CoarseToFineSearch* search, const SearchMe
 }
 
 /// Of the alike poses the one that the picture shows clearly; otherwise the first.
-PoseHypothesis likeliest(const RgbdFrame& frame, const SearchMeshes& meshes, const RegistrationConfig& config,
+PoseHypothesis likeliest(const RgbdFrame& frame, const SearchMeshes& meshes,
                          const std::vector<PoseHypothesis>& alike) {
-  const PicturedPlace place = picturedPlace(meshes, PictureJudge(frame, meshes, config).judged(alike),
-                                            static_cast<int>(alike.size()));
+  const PicturedPlace place =
+      picturedPlace(meshes, PictureJudge(frame, meshes).judged(alike), static_cast<int>(alike.size()));
   if (!place.body || place.body->alike > 1) return alike.front();
   return *std::find_if(alike.begin(), alike.end(),
                        [&](const PoseHypothesis& pose) { return pose.pose.isApprox(place.body->pose, 0.0); });
@@ -53,20 +53,17 @@ PoseHypothesis likeliest(const RgbdFrame& frame, const SearchMeshes& meshes, con
 
 }  // namespace
 
-PoseHypothesis searchNearPose(const RgbdFrame& frame, const SearchMeshes& meshes, const RoughPose& rough,
-                              const RegistrationConfig& config) {
-  CoarseToFineSearch search(frame, meshes, config, rough);
+PoseHypothesis searchNearPose(const RgbdFrame& frame, const SearchMeshes& meshes, const RoughPose& rough) {
+  CoarseToFineSearch search(frame, meshes, rough);
   const Eigen::Isometry3d pose = bestNear(&search, meshes, rough);
   const PoseHypothesis best{pose, search.polishedCost(pose)};
   if (meshes.picture.empty()) return best;
-  return likeliest(frame, meshes, config, alikeNear(&search, meshes, rough, best));
+  return likeliest(frame, meshes, alikeNear(&search, meshes, rough, best));
 }
 
-SearchOutcome searchNearAccepted(const RgbdFrame& frame, const SearchMeshes& meshes, const RoughPose& rough,
-                                 const RegistrationConfig& config) {
-  const PoseHypothesis best = searchNearPose(frame, meshes, rough, config);
-  const bool accepted =
-      isNear(rough, best.pose, centerOf(meshes)) && isShown(frame, meshes.fine, best.pose, config);
+SearchOutcome searchNearAccepted(const RgbdFrame& frame, const SearchMeshes& meshes, const RoughPose& rough) {
+  const PoseHypothesis best = searchNearPose(frame, meshes, rough);
+  const bool accepted = isNear(rough, best.pose, centerOf(meshes)) && isShown(frame, meshes.fine, best.pose);
   return {accepted ? std::optional(FoundPose{best.pose, 1}) : std::nullopt, best};
 }
 

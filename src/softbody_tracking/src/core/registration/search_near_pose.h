@@ -12,12 +12,10 @@ namespace softbody {
 /// shifts of it. If the body's picture is known, it decides between poses that explain the depth equally
 /// well.
 /// @return the best pose with its PoseCost; the caller decides whether it is acceptable.
-PoseHypothesis searchNearPose(const RgbdFrame& frame, const SearchMeshes& meshes, const RoughPose& rough,
-                              const RegistrationConfig& config);
+PoseHypothesis searchNearPose(const RgbdFrame& frame, const SearchMeshes& meshes, const RoughPose& rough);
 
 /// The same, accepted if the frame shows the body there (see isShown()) and the pose is not farther from the
 /// rough one than three standard deviations.
-SearchOutcome searchNearAccepted(const RgbdFrame& frame, const SearchMeshes& meshes, const RoughPose& rough,
-                                 const RegistrationConfig& config);
+SearchOutcome searchNearAccepted(const RgbdFrame& frame, const SearchMeshes& meshes, const RoughPose& rough);
 
 }  // namespace softbody

@@ -76,7 +76,7 @@ const DepthPart* partAt(const std::vector<DepthPart>& parts, const std::optional
 }
 
 /// Share of a mesh's pixels at which something is nearer that does not belong to the part.
-double hiddenShare(const RgbdFrame& image, const RasterImage& mesh, const DepthPart& part, double scale_m) {
+double hiddenShare(const RgbdFrame& image, const RasterImage& mesh, const DepthPart& part) {
   cv::Mat1b own(mesh.triangle.size(), 0);
   for (const int pixel : part.pixels) own(pixel / own.cols, pixel % own.cols) = 1;
   int covered = 0, hidden = 0;
@@ -85,27 +85,26 @@ double hiddenShare(const RgbdFrame& image, const RasterImage& mesh, const DepthP
       if (mesh.triangle(v, u) < 0) continue;
       ++covered;
       const double measured = image.depth(v, u), expected = mesh.depth(v, u);
-      if (measured > 0.0 && measured < expected - distanceScaleAt(expected, scale_m) && own(v, u) == 0)
-        ++hidden;
+      if (measured > 0.0 && measured < expected - distanceScaleAt(expected) && own(v, u) == 0) ++hidden;
     }
   }
   return static_cast<double>(hidden) / std::max(1, covered);
 }
 
 void measurePose(const RgbdFrame& frame, const SearchMeshes& meshes, const PoseHypothesis& best,
-                 const std::optional<RoughPose>& rough, double distance_scale_m, SearchReport* report) {
+                 const std::optional<RoughPose>& rough, SearchReport* report) {
   report->pose = best.pose;
   const RgbdFrame image = subsampled(frame, kLargeColumns);
-  const PoseAgreement seen = PoseCost(image, meshes.fine, distance_scale_m).agreement(best.pose);
+  const PoseAgreement seen = PoseCost(image, meshes.fine).agreement(best.pose);
   const double covered = std::max(1, seen.covered);
-  report->cost = rough ? seen.misfit : freeCost(frame, meshes.fine, best.pose, distance_scale_m);
+  report->cost = rough ? seen.misfit : freeCost(frame, meshes.fine, best.pose);
   report->agreeing = seen.agreeing / covered;
   report->nearer = seen.nearer / covered;
   report->farther = seen.farther / covered;
   report->difference_m = seen.difference_m;
   report->continuing = seen.continuing / std::max(1, seen.outline);
-  report->confined = confinement(frame, meshes.fine, best.pose, distance_scale_m);
-  report->without_edge = shareWithoutEdge(frame, meshes.fine, best.pose, distance_scale_m);
+  report->confined = confinement(frame, meshes.fine, best.pose);
+  report->without_edge = shareWithoutEdge(frame, meshes.fine, best.pose);
   report->near_pose = rough.has_value();
   if (!rough) return;
   const Eigen::Vector3d center = meshes.full.vertices.colwise().mean();
@@ -129,8 +128,7 @@ double widestView(const RgbdFrame& image) {
 }
 
 /// The factors with which the body would have the size of a part of the image, the likeliest first.
-std::vector<double> likelyUnits(const RgbdFrame& frame, const RegionColors& colors, double diameter_m,
-                                double distance_scale_m) {
+std::vector<double> likelyUnits(const RgbdFrame& frame, const RegionColors& colors, double diameter_m) {
   const RgbdFrame image = subsampled(frame, kMediumColumns);
   const double widest_m = widestView(image);
   std::vector<std::pair<double, double>> units;  // difference in size, factor
@@ -138,7 +136,7 @@ std::vector<double> likelyUnits(const RgbdFrame& frame, const RegionColors& colo
     const double size_m = factor * diameter_m;
     if (size_m > widest_m) continue;
     double difference = std::numeric_limits<double>::max();
-    for (const DepthPart& part : findDepthParts(image, colors, size_m, distance_scale_m))
+    for (const DepthPart& part : findDepthParts(image, colors, size_m))
       if (part.fits) difference = std::min(difference, part.rating + std::log(part.candidate.pixels));
     if (difference < std::numeric_limits<double>::max()) units.emplace_back(difference, factor);
   }
@@ -159,21 +157,18 @@ bool isWhollyInView(const RgbdFrame& frame, const TriangleMesh& mesh, const Eige
 }
 
 /// Whether the image shows edges all around a posed mesh.
-bool isBounded(const RgbdFrame& frame, const TriangleMesh& mesh, const Eigen::Isometry3d& pose,
-               const RegistrationConfig& config) {
-  return isWhollyInView(frame, mesh, pose) && standsFree(frame, mesh, pose, config);
+bool isBounded(const RgbdFrame& frame, const TriangleMesh& mesh, const Eigen::Isometry3d& pose) {
+  return isWhollyInView(frame, mesh, pose) && standsFree(frame, mesh, pose);
 }
 
 /// Size of the part at a pose, divided by that of the mesh there. Empty if they are alike, or the part is not
 /// wholly in view.
 std::optional<double> sizeRatio(const RgbdFrame& frame, const RegionColors& colors,
-                                const SearchMeshes& meshes, const PoseHypothesis& best,
-                                const RegistrationConfig& config) {
+                                const SearchMeshes& meshes, const PoseHypothesis& best) {
   const RgbdFrame image = subsampled(frame, kMediumColumns);
   const RasterImage mesh = rendered(image, meshes.fine, best.pose);
   const std::vector<Eigen::Vector3d> visible = visiblePoints(image, mesh);
-  const std::vector<DepthPart> parts =
-      findDepthParts(image, colors, meshes.diameter_m, config.distance_scale_m);
+  const std::vector<DepthPart> parts = findDepthParts(image, colors, meshes.diameter_m);
   const DepthPart* part = visible.empty() ? nullptr : partAt(parts, mesh);
   if (part == nullptr || part->at_border) return std::nullopt;
   const double spread_m = spreadOf(visible), pixel_m = part->candidate.center.z() / image.camera.fx;
@@ -185,8 +180,7 @@ std::optional<double> sizeRatio(const RgbdFrame& frame, const RegionColors& colo
 }  // namespace
 
 SearchReport measureSearch(const RgbdFrame& frame, const RegionColors& colors, const SearchMeshes& meshes,
-                           const SearchOutcome& outcome, const std::optional<RoughPose>& rough,
-                           const RegistrationConfig& config) {
+                           const SearchOutcome& outcome, const std::optional<RoughPose>& rough) {
   const std::optional<PoseHypothesis>& best = outcome.best;
   SearchReport report;
   report.pictured = outcome.refused.tried;
@@ -194,42 +188,37 @@ SearchReport measureSearch(const RgbdFrame& frame, const RegionColors& colors, c
   report.refused_by_picture = outcome.refused.by_picture;
   report.several_places = outcome.refused.several;
   report.body_m = sidesOf(meshes.full.vertices);
-  report.largest_cost = config.max_cost;
-  report.least_confined = kLeastConfinement;
-  report.largest_without_edge = kLargestShareWithoutEdge;
   const RgbdFrame image = subsampled(frame, kMediumColumns);
   measureDepth(image, &report);
   std::optional<RasterImage> mesh;
   if (best) {
-    measurePose(frame, meshes, *best, rough, config.distance_scale_m, &report);
+    measurePose(frame, meshes, *best, rough, &report);
     mesh = rendered(image, meshes.fine, best->pose);
   }
-  const std::vector<DepthPart> parts =
-      findDepthParts(image, colors, meshes.diameter_m, config.distance_scale_m);
+  const std::vector<DepthPart> parts = findDepthParts(image, colors, meshes.diameter_m);
   if (const DepthPart* part = partAt(parts, mesh)) {
     report.part_m = part->size_m;
     report.part_distance_m = part->candidate.center.norm();
     report.part_fits = part->fits;
     report.part_at_border = part->at_border;
-    if (mesh) report.hidden = hiddenShare(image, *mesh, *part, config.distance_scale_m);
+    if (mesh) report.hidden = hiddenShare(image, *mesh, *part);
   }
   return report;
 }
 
 std::optional<double> fittingScale(const RgbdFrame& frame, const RegionColors& colors,
-                                   const SearchMeshes& meshes, const std::optional<PoseHypothesis>& best,
-                                   const RegistrationConfig& config) {
-  std::vector<double> factors = likelyUnits(frame, colors, meshes.diameter_m, config.distance_scale_m);
+                                   const SearchMeshes& meshes, const std::optional<PoseHypothesis>& best) {
+  std::vector<double> factors = likelyUnits(frame, colors, meshes.diameter_m);
   if (best) {
-    const std::optional<double> ratio = sizeRatio(frame, colors, meshes, *best, config);
+    const std::optional<double> ratio = sizeRatio(frame, colors, meshes, *best);
     if (ratio) factors.push_back(*ratio);
   }
   std::optional<double> fitting;
-  double highest_cost = config.max_cost;
+  double highest_cost = kLargestCost;
   for (const double factor : factors) {
     const SearchMeshes other = makeSearchMeshes(scaled(meshes.full, factor));
-    for (const PoseHypothesis& pose : posesAnywhere(frame, colors, other, {}, config)) {
-      if (pose.cost > highest_cost || !isBounded(frame, other.fine, pose.pose, config)) continue;
+    for (const PoseHypothesis& pose : posesAnywhere(frame, colors, other, {})) {
+      if (pose.cost > highest_cost || !isBounded(frame, other.fine, pose.pose)) continue;
       fitting = factor;
       highest_cost = pose.cost;
     }

@@ -4,10 +4,6 @@
 #include <cstddef>
 #include <optional>
 
-#include "softbody_common/geometry/types.h"
-#include "softbody_tracking/rgbd_frame.h"
-#include "softbody_tracking/tracker_config.h"
-
 namespace softbody {
 
 /// What a search for the undeformed body measured in one frame. Lengths in metres, shares 0..1.
@@ -27,19 +23,17 @@ struct SearchReport {
   bool part_at_border = false;  ///< it reaches the border of the image
 
   /// Of the best pose; a cost of 1: no pose was tried.
-  double cost = 1.0, largest_cost = 0.0;               ///< see docs/pipeline/registration.md
+  double cost = 1.0;                                   ///< see docs/pipeline/registration.md
   double agreeing = 0.0, nearer = 0.0, farther = 0.0;  ///< pixels of the mesh; the others have no depth
   double hidden = 0.0;        ///< pixels of the mesh before which another part is nearer
   double difference_m = 0.0;  ///< median difference of depth
   double continuing = 0.0;    ///< pixels just outside the outline whose depth continues the surface
   double confined = 0.0;      ///< see confinement()
-  double least_confined = 0.0;
   double without_edge = 0.0;  ///< outline at which depth runs straight on
-  double largest_without_edge = 0.0;
-  bool near_pose = false;  ///< the body was sought only near a rough pose
-  bool outside = false;    ///< the best pose is farther from that one than its uncertainty
-  double shift_m = 0.0;    ///< of the best pose from it
-  double turn_rad = 0.0;   ///< the same
+  bool near_pose = false;     ///< the body was sought only near a rough pose
+  bool outside = false;       ///< the best pose is farther from that one than its uncertainty
+  double shift_m = 0.0;       ///< of the best pose from it
+  double turn_rad = 0.0;      ///< the same
   /// If a body with a picture was not found: number of poses that were tried (0: no picture, or near a pose),
   /// that depth refuses, and at which something else than the picture is seen.
   std::size_t pictured = 0, refused_by_depth = 0, refused_by_picture = 0;
@@ -47,11 +41,5 @@ struct SearchReport {
   /// The mesh times this factor would be found; empty: no such factor is known.
   std::optional<double> fitting_scale;
 };
-
-/// Searches for the body as the tracker does in the first frame.
-/// @param initial_pose rough pose in the camera frame, if one is known.
-SearchReport searchForBody(const RgbdFrame& frame, const TriangleMesh& rest_surface,
-                           const std::optional<Eigen::Isometry3d>& initial_pose,
-                           const RegistrationConfig& config);
 
 }  // namespace softbody

@@ -5,6 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "agreement/body_edges.h"
+#include "agreement/confinement.h"
+#include "agreement/pose_cost.h"
+
 namespace softbody {
 namespace {
 
@@ -72,9 +76,9 @@ std::string noCandidate(const SearchReport& report) {
 /// What the image shows instead of the body, and what to do.
 std::string disagreement(const SearchReport& report) {
   if (report.part_at_border) return "It reaches the border of the image: move it into the view";
-  if (report.hidden > report.largest_cost)
+  if (report.hidden > kLargestCost)
     return fmt::format("Something is before {} % of it: take it away", percent(report.hidden));
-  if (report.continuing > report.largest_without_edge)
+  if (report.continuing > kLargestShareWithoutEdge)
     return fmt::format(
         "The surface goes on beyond {} % of the outline: it touches something, it is bent, or the mesh is "
         "too small. Tracking starts when it stands free near its rest shape",
@@ -86,7 +90,7 @@ std::string highCost(const SearchReport& report) {
   return fmt::format(
       "{}; its disagreement is {} %, allowed: {} %. {} % of the mesh's pixels agree, at {} % the camera sees "
       "through it, at {} % something is nearer; the median difference is {:.1f} mm. {}, {}",
-      candidateText(report), percent(report.cost), percent(report.largest_cost), percent(report.agreeing),
+      candidateText(report), percent(report.cost), percent(kLargestCost), percent(report.agreeing),
       percent(report.farther), percent(report.nearer), 1e3 * report.difference_m, disagreement(report),
       poseAdvice(report));
 }
@@ -96,8 +100,8 @@ std::string notConfined(const SearchReport& report) {
       "{}; {} % of its pixels agree, but only {} % of the edges that would confine it are seen (needed: {} "
       "%): it lies in a larger surface, most of it is hidden, or the mesh is too small. Move the body away "
       "from what it touches, compare the mesh with a ruler, {}",
-      candidateText(report), percent(report.agreeing), percent(report.confined),
-      percent(report.least_confined), poseAdvice(report));
+      candidateText(report), percent(report.agreeing), percent(report.confined), percent(kLeastConfinement),
+      poseAdvice(report));
 }
 
 std::string noEdge(const SearchReport& report) {
@@ -106,7 +110,7 @@ std::string noEdge(const SearchReport& report) {
       "lies in a larger surface, or the mesh is too small. Move the body away from it, compare the mesh with "
       "a ruler, {}",
       candidateText(report), percent(report.agreeing), percent(report.without_edge),
-      percent(report.largest_without_edge), poseAdvice(report));
+      percent(kLargestShareWithoutEdge), poseAdvice(report));
 }
 
 std::string elsewhere(const SearchReport& report) {
@@ -138,11 +142,11 @@ std::string whyNotFound(const SearchReport& report) {
     if (report.depth_share == 0.0) return noDepth(report);
     if (report.fitting_scale) return otherScale(report);
     if (report.several_places || report.refused_by_picture > 0) return notSeen(report);
-    if (report.cost >= 1.0 || (!report.near_pose && !report.part_fits && report.cost > report.largest_cost))
+    if (report.cost >= 1.0 || (!report.near_pose && !report.part_fits && report.cost > kLargestCost))
       return noCandidate(report);
-    if (report.cost > report.largest_cost) return highCost(report);
-    if (report.confined < report.least_confined) return notConfined(report);
-    if (!report.near_pose && report.without_edge > report.largest_without_edge) return noEdge(report);
+    if (report.cost > kLargestCost) return highCost(report);
+    if (report.confined < kLeastConfinement) return notConfined(report);
+    if (!report.near_pose && report.without_edge > kLargestShareWithoutEdge) return noEdge(report);
     if (report.outside) return elsewhere(report);
     return fmt::format("{}; {} % of its pixels agree, but its colours or features are not those of the body",
                        candidateText(report), percent(report.agreeing));

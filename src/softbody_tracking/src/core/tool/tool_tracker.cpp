@@ -85,17 +85,6 @@ ParameterTable<ToolTrackerConfig> makeToolTrackerTable() {
   using Config = ToolTrackerConfig;
   ParameterTable<Config> table;
   table.group("tool_tracker");
-  table.number("corner_std_px", &Config::corner_std_px, {0.01, 10.0}, "px",
-               "standard deviation of a corner in good images; worse ones are noticed");
-  table.flag("use_depth", &Config::use_depth, "use the depth on the markers");
-  table.number("depth_std_1_m", &Config::depth_std_1_m, {1e-5, 1.0}, "m",
-               "standard deviation of a depth at 1 m; it grows with the square of the distance");
-  table.number("depth_independent_samples", &Config::depth_independent_samples, {0.1, 1000.0}, "",
-               "effective number of independent depth samples of a marker");
-  table.number("max_reprojection_px", &Config::max_reprojection_px, {0.1, 100.0}, "px",
-               "a marker with a larger error is ignored");
-  table.number("ambiguity", &Config::ambiguity, {0.0, 1000.0}, "chi squared",
-               "if -2 log likelihood of the two poses differs by less than this, no blade is published");
   table.number("bridge_time_s", &Config::bridge_time_s, {0.0, 10.0}, "s",
                "prediction of a tool that is out of view; 0: none");
   return table;

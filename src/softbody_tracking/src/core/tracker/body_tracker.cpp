@@ -18,8 +18,6 @@
 #include "softbody_common/protocol/tracking_state.h"
 #include "softbody_common/time/time.h"
 #include "status/disagreement.h"
-#include "targets/knn_targets.h"
-#include "targets/position_prior.h"
 #include "tracker/frame_observer.h"
 #include "tracker/relocalizer.h"
 #include "tracker/tracking_status.h"
@@ -42,11 +40,25 @@ void requireCameraSize(const RgbdFrame& frame) {
                               sizeText(frame.depth.size()) + ", but the camera " + sizeText(size));
 }
 
+/// Of a state of the volume. @param answer nullptr: not known.
+const std::vector<float>& deviationsOf(const MeshState* answer) {
+  static const std::vector<float> kUnknown;
+  return answer != nullptr ? answer->standard_deviation : kUnknown;
+}
+
+/// Features, depth and outline.
+std::vector<Association> associationsOf(const Observation& seen) {
+  std::vector<Association> associations = inliers(seen.matches);
+  for (const std::vector<Association>* more : {&seen.depth.associations, &seen.outline.associations})
+    associations.insert(associations.end(), more->begin(), more->end());
+  return associations;
+}
+
 }  // namespace
 
 struct BodyTracker::Implementation {
   Implementation(const TrackerConfig& tracker_config, const cv::Mat3b& picture)
-      : config(tracker_config), knn(config.knn), relocalizer(config.registration, picture) {}
+      : config(tracker_config), relocalizer(config.registration, picture) {}
 
   TrackingResult track(const RgbdFrame& frame, const MeshState* volume, StageTimer* timer,
                        const UseTargets& use);
@@ -60,22 +72,18 @@ struct BodyTracker::Implementation {
   void forgetMotion(bool searched);
   bool isAnswer(const MeshState* volume) const;
   Points predict(const RgbdFrame& frame, const MeshState* answer);
-  std::vector<Association> associationsOf(const ObservedBody& observed,
-                                          const Eigen::Matrix3d& R_camera_fixed) const;
   TrackingStatus judge(const RgbdFrame& frame, const ObservedBody& observed,
                        const std::vector<Association>& associations, const MeshState* answer);
   TrackingStatus withSilence(TrackingStatus status) const;
   TargetSet targetSetOf(const RgbdFrame& frame, const ObservedBody& observed,
                         const std::vector<Association>& associations, const MeshState* answer) const;
-  void learnFeatures(const RgbdFrame& frame, const ObservedBody& observed, const MeshState* answer);
   TrackingResult waiting(const std::string& reason, const UseTargets& use) const;
 
   TrackerConfig config;
-  KnnTargets knn;
   Relocalizer relocalizer;
   std::unique_ptr<FrameObserver> observer;
   std::unique_ptr<RigidPrediction> prediction;
-  std::unique_ptr<PositionPrior> hold;
+  std::vector<MaterialPoint> places;  ///< vertexPlaces() of the model
   HeldPieces held;
   MeanDisagreement disagreement;
   std::vector<MotionShare> measured;  ///< share of each piece's motion in the last frame; empty: all
@@ -163,7 +171,7 @@ TrackingResult BodyTracker::Implementation::track(const RgbdFrame& frame, const 
   const ObservedBody observed = observer->observe(frame, predicted);
   const auto& [seen, surface, image, labels] = observed;
   relocalizer.setPose(frame.T_fixed_camera * fitRigid(model().rest_vertices, surface.volumeVertices()));
-  const std::vector<Association> associations = associationsOf(observed, T_camera_fixed.linear());
+  const std::vector<Association> associations = associationsOf(seen);
   measured = measuredShares(associations, surface.pieceVertices(), frame.T_fixed_camera.linear());
 
   TrackingResult result;
@@ -178,7 +186,7 @@ TrackingResult BodyTracker::Implementation::track(const RgbdFrame& frame, const 
   if (use) use(result.targets);
   result.features = trackedFeatures(seen, observer->features(), T_camera_fixed);
   result.status = held.report(seen, surface.model().piecesOfSurface(), stamp, std::move(result.status));
-  if (state == TrackingState::kTracking) learnFeatures(frame, observed, answer);
+  if (state == TrackingState::kTracking) observer->learnFeatures(frame, observed, deviationsOf(answer));
   result.status.features_total = knownFeatures();
   result.labels = labels.label;
   result.labelled = labels.region;
@@ -194,7 +202,6 @@ void BodyTracker::Implementation::setTopologies(const TetTopology& volume, const
   if (hasTopologies(volume, surface)) return;
   const bool edited = isEdit(volume, surface);
   if (edited) {
-    knn.rebind(model(), volume);
     observer->setTopologies(volume, surface);
     relocalizer.forgetMeshes();
   } else {
@@ -202,7 +209,7 @@ void BodyTracker::Implementation::setTopologies(const TetTopology& volume, const
     relocalizer.prepareMeshes(surface);
   }
   prediction = std::make_unique<RigidPrediction>(volume.rest_vertices, observer->model().pieces());
-  hold = std::make_unique<PositionPrior>(volume);
+  places = vertexPlaces(volume);
   measured.clear();
   held.reset();
   if (!edited) reset();
@@ -231,7 +238,6 @@ void BodyTracker::Implementation::reset() {
   measured.clear();
   held.reset();
   disagreement.reset();
-  knn.reset();
 }
 
 /// The body did not move to where it is found: the frames before say nothing about the next one.
@@ -257,22 +263,6 @@ Points BodyTracker::Implementation::predict(const RgbdFrame& frame, const MeshSt
   return prediction->at(frame.stamp, measured);
 }
 
-std::vector<Association> BodyTracker::Implementation::associationsOf(
-    const ObservedBody& observed, const Eigen::Matrix3d& R_camera_fixed) const {
-  const Observation& seen = observed.seen;
-  if (config.knn_targets)
-    return knn.associations(observer->features(), seen.matches, observed.surface, R_camera_fixed);
-  std::vector<Association> associations = inliers(seen.matches);
-  if (config.use_depth) {
-    associations.reserve(associations.size() + seen.depth.associations.size() +
-                         seen.outline.associations.size());
-    associations.insert(associations.end(), seen.depth.associations.begin(), seen.depth.associations.end());
-    const std::vector<Association>& outline = seen.outline.associations;
-    associations.insert(associations.end(), outline.begin(), outline.end());
-  }
-  return associations;
-}
-
 TrackingResult BodyTracker::Implementation::waiting(const std::string& reason, const UseTargets& use) const {
   TrackingResult result;
   const bool recovering = relocalizer.recovering();
@@ -291,12 +281,11 @@ TrackingStatus BodyTracker::Implementation::judge(const RgbdFrame& frame, const 
                                                   const std::vector<Association>& associations,
                                                   const MeshState* answer) {
   const auto& [seen, surface, image, labels] = observed;
-  const std::vector<float> unknown;
-  const std::vector<float>& deviations = answer != nullptr ? answer->standard_deviation : unknown;
+  const std::vector<float>& deviations = deviationsOf(answer);
   const ComparedBody compared{labels, surface, frame.depth, seen.outline.deviation_px, deviations};
   const ShownError error{disagreement.add(largestDisagreement(compared), stamp),
                          medianBound(associations, model(), deviations), imageScale(labels, surface)};
-  TrackingStatus status = statusOf(seen, associations, error, config.status.tolerance_m);
+  TrackingStatus status = statusOf(seen, associations, error, config.status_tolerance_m);
   if (status.state == TrackingState::kTracking && relocalizer.alike() > 1) {
     const std::string other = status.reason;
     status.reason = alikeReason(relocalizer.alike());
@@ -328,20 +317,8 @@ TargetSet BodyTracker::Implementation::targetSetOf(const RgbdFrame& frame, const
   if (answer == nullptr) return set;
   const PredictedSurface& surface = observed.surface;
   addHeldPieces(observed.seen, surface.model().pieces(), answer->vertices,
-                transformed(surface.volumeVertices(), frame.T_fixed_camera), *hold, &set.targets);
+                transformed(surface.volumeVertices(), frame.T_fixed_camera), places, &set.targets);
   return set;
-}
-
-/// @param answer state of the volume before the frame, or nullptr. The KNN weights are bound once, in the
-/// frame with the first features.
-void BodyTracker::Implementation::learnFeatures(const RgbdFrame& frame, const ObservedBody& observed,
-                                                const MeshState* answer) {
-  const bool first = observer->features().empty();
-  const std::vector<float> unknown;
-  observer->learnFeatures(frame, observed, answer != nullptr ? answer->standard_deviation : unknown);
-  if (!first) return;
-  knn.bind(observer->features(), model(),
-           transformed(observed.surface.volumeVertices(), frame.T_fixed_camera));
 }
 
 }  // namespace softbody

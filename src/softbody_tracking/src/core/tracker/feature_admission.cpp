@@ -29,9 +29,8 @@ void FeatureAdmission::reset() {
 }
 
 int FeatureAdmission::enoughFeatures(double visible_vertices) const {
-  if (config_.between_frames) return config_.max_features;
   const int of_volume = cvRound(kEnoughOfVertex * visible_vertices);
-  return std::min(config_.max_features, std::max(kEnoughToRecognize, of_volume));
+  return std::min(most_, std::max(kEnoughToRecognize, of_volume));
 }
 
 /// The next quarter of the rendered surface.
@@ -58,7 +57,7 @@ void FeatureAdmission::admitIn(const LearnedFrame& from, int room, FeatureMap* m
       withoutKnownFeatures(labels.maskOfBody(frame.color.size()), {seen.matches, seen.missed});
   const std::vector<cv::KeyPoint> corners =
       chooseCorners(frame, orb_.detect(frame.color, free, region), surface, seen.learnable, known, wanted,
-                    config_.between_frames ? 0.0 : kGap * volume_edge_m);
+                    kGap * volume_edge_m);
   std::vector<MapFeature> bound = bindKeypoints(frame, image, orb_.describe(frame.color, region, corners),
                                                 surface, seen.learnable, map->room(seen.expected.count()));
   if (!deviations.empty())

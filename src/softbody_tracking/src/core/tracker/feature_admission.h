@@ -25,9 +25,10 @@ struct LearnedFrame {
 /// later ones tile by tile, so that no frame takes much longer than others.
 class FeatureAdmission {
  public:
-  explicit FeatureAdmission(const FeatureConfig& config) : config_(config) {}
+  /// @param most features in view.
+  explicit FeatureAdmission(int most) : most_(most) {}
 
-  void setConfig(const FeatureConfig& config) { config_ = config; }
+  void setMost(int most) { most_ = most; }
 
   /// Admits new features if this is due.
   void admit(const LearnedFrame& from, FeatureMap* map);
@@ -45,7 +46,7 @@ class FeatureAdmission {
   /// Of surface that shows no new feature [ns]: its tiles then cost as little as one in ten frames.
   static constexpr Nanoseconds kLongestWait = 1'000'000'000;
 
-  FeatureConfig config_;
+  int most_;
   OrbExtractor orb_;
   Backoff rounds_{kLongestWait};  ///< of all tiles, without a new feature
   int fruitless_tiles_ = 0;       ///< consecutive tiles without a new feature

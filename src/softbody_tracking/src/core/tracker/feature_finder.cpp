@@ -33,18 +33,18 @@ FoundFeatures FeatureFinder::expect(const SoughtFeatures& sought, const Predicte
   const cv::Mat3b& color = sought.frame.color;
   FoundFeatures features;
   features.expected = expectFeatures(sought.known, labels, surface);
-  features.image = GrayPyramid(color, searchRegion(surface, color.size(), features_.search_radius_px));
+  features.image = GrayPyramid(color, searchRegion(surface, color.size(), kSearchRadius_px));
   return features;
 }
 
 FoundFeatures FeatureFinder::findAll(const SoughtFeatures& sought, FoundFeatures expected) const {
-  const FeatureMatcher matcher(features_, sought.known, sought.frame, expected.image);
+  const FeatureMatcher matcher(sought.known, sought.frame, expected.image);
   expected.found = matcher.alignAll(expected.expected);
   return expected;
 }
 
 FoundFeatures FeatureFinder::findScouts(const SoughtFeatures& sought, FoundFeatures expected) const {
-  const FeatureMatcher matcher(features_, sought.known, sought.frame, expected.image);
+  const FeatureMatcher matcher(sought.known, sought.frame, expected.image);
   expected.found = matcher.alignSome(expected.expected, kScouts);
   return expected;
 }
@@ -61,9 +61,9 @@ bool FeatureFinder::areFarOff(const SoughtFeatures& sought, const FoundFeatures&
 }
 
 FoundFeatures FeatureFinder::findOthers(const SoughtFeatures& sought, FoundFeatures scouts) const {
-  const FeatureMatcher matcher(features_, sought.known, sought.frame, scouts.image);
+  const FeatureMatcher matcher(sought.known, sought.frame, scouts.image);
   scouts.found = matcher.alignOthers(scouts.expected, kScouts, std::move(scouts.found));
-  markOutliers(sought.frame.camera, features_.max_disagreement_m, &scouts.found.matches);
+  markOutliers(sought.frame.camera, &scouts.found.matches);
   return scouts;
 }
 
@@ -72,36 +72,30 @@ FoundFeatures FeatureFinder::findAfter(const SoughtFeatures& sought, const Rigid
   const Pinhole& camera = sought.frame.camera;
   expected.expected = lookedForAfter(motions, camera, std::move(expected.expected));
   FoundFeatures features = findAll(sought, std::move(expected));
-  markOutliers(camera, features_.max_disagreement_m, &features.found.matches);
+  markOutliers(camera, &features.found.matches);
   return features;
 }
 
 FoundFeatures FeatureFinder::addFromAfar(const SoughtFeatures& sought, const PredictedSurface& surface,
                                          FoundFeatures features) const {
   const cv::Mat3b& color = sought.frame.color;
-  const int reach_px = std::max(kWideSearchPx, features_.search_radius_px);
-  features.image = GrayPyramid(color, searchRegion(surface, color.size(), reach_px));
   const cv::Rect region = searchRegion(surface, color.size(), kWideSearchPx);
+  features.image = GrayPyramid(color, region);
   const std::vector<Keypoint> keypoints = orb_.extract(color, sought.colors.mask(color, region), region);
-  const std::vector<FeatureMatch> more = FeatureMatcher(features_, sought.known, sought.frame, features.image)
+  const std::vector<FeatureMatch> more = FeatureMatcher(sought.known, sought.frame, features.image)
                                              .matchDescriptors(features.found.missed, keypoints);
   features.found.matches.insert(features.found.matches.end(), more.begin(), more.end());
-  markOutliers(sought.frame.camera, features_.max_disagreement_m, &features.found.matches);
+  markOutliers(sought.frame.camera, &features.found.matches);
   return features;
-}
-
-std::vector<Keypoint> FeatureFinder::keypointsOfImage(const SoughtFeatures& sought) const {
-  const cv::Mat3b& color = sought.frame.color;
-  const cv::Rect image(cv::Point(), color.size());
-  cv::Mat1b mask = sought.colors.mask(color, image);
-  if (!sought.frame.known.empty()) mask.setTo(0, sought.frame.known > 0.0f);
-  return orb_.extract(color, mask, image);
 }
 
 std::vector<PointPair> FeatureFinder::recognize(const SoughtFeatures& sought, const SurfaceModel& model,
                                                 const Points& vertices) const {
-  return recognizedFeatures(sought.frame, sought.known, keypointsOfImage(sought), model, vertices,
-                            features_.max_hamming_distance);
+  const cv::Mat3b& color = sought.frame.color;
+  const cv::Rect image(cv::Point(), color.size());
+  cv::Mat1b mask = sought.colors.mask(color, image);
+  if (!sought.frame.known.empty()) mask.setTo(0, sought.frame.known > 0.0f);
+  return recognizedFeatures(sought.frame, sought.known, orb_.extract(color, mask, image), model, vertices);
 }
 
 }  // namespace softbody

@@ -31,10 +31,6 @@ struct FoundFeatures {
 /// Finds known features in a frame. It keeps nothing from one call to the next.
 class FeatureFinder {
  public:
-  explicit FeatureFinder(const TrackerConfig& config) : features_(config.features) {}
-
-  void setConfig(const FeatureConfig& config) { features_ = config; }
-
   /// The features that the frame should show. None is looked for yet.
   FoundFeatures expect(const SoughtFeatures& sought, const PredictedSurface& surface,
                        const Labels& labels) const;
@@ -56,14 +52,12 @@ class FeatureFinder {
   FoundFeatures addFromAfar(const SoughtFeatures& sought, const PredictedSurface& surface,
                             FoundFeatures features) const;
 
-  /// Keypoints of the whole image, where it has the body's colours.
-  std::vector<Keypoint> keypointsOfImage(const SoughtFeatures& sought) const;
-  /// Pairs features with keypoints of the whole image. @param vertices of the volume, as expected.
+  /// Pairs features with keypoints of the whole image, where it has the body's colours. @param vertices of
+  /// the volume, as expected.
   std::vector<PointPair> recognize(const SoughtFeatures& sought, const SurfaceModel& model,
                                    const Points& vertices) const;
 
  private:
-  FeatureConfig features_;
   OrbExtractor orb_;
 };
 

@@ -17,19 +17,15 @@ FrameObserver::FrameObserver(const TrackerConfig& config, const TetTopology& vol
       model_(std::make_shared<SurfaceModel>(volume, surface)),
       view_settings_(config),
       weights_(config, volume),
-      map_(config.features),
-      finder_(config),
-      guesses_(config),
-      admission_(config.features) {}
+      map_(config.max_features),
+      admission_(config.max_features) {}
 
 void FrameObserver::setConfig(const TrackerConfig& config) {
   config_ = config;
   view_settings_ = ViewSettings(config);
   weights_ = MeasurementWeights(config, model_->volume());
-  map_.setConfig(config.features);
-  finder_.setConfig(config.features);
-  guesses_.setConfig(config.features);
-  admission_.setConfig(config.features);
+  map_.setMost(config.max_features);
+  admission_.setMost(config.max_features);
 }
 
 void FrameObserver::setTopologies(const TetTopology& volume, const MeshTopology& surface) {

@@ -53,7 +53,6 @@ class FrameObserver {
   const SurfaceModel& model() const { return *model_; }
   const std::vector<MapFeature>& features() const { return map_.features(); }
   const RegionColors& colors() const { return colors_; }
-  double usualError() const { return usual_error_.meters(); }  ///< of predictions [m], see UsualError
 
   /// To be called when the body was found again somewhere: the last frame says nothing about the next one.
   /// @param searched a search compared its silhouette with the frame.

@@ -48,7 +48,7 @@ std::vector<bool> confirmedMoves(const std::vector<bool>& moved, const std::vect
 
 Labels labelsOf(const GuessedBody& body, const View& view) {
   return labelsOf(body.sought.frame, view.surface, view.samples, body.sought.colors, body.last_labels,
-                  body.weights.depth.reach_m, body.usual_error_m);
+                  body.usual_error_m);
 }
 
 Labels silhouetteLabels(const GuessedBody& body, const View& view) {
@@ -62,11 +62,9 @@ Labels silhouetteLabels(const GuessedBody& body, const View& view) {
 void Guesses::reset() {
   wide_search_.reset();
   piece_search_.reset();
-  frame_matcher_.reset();
 }
 
 Guess Guesses::best(const GuessedBody& body, View prediction) {
-  if (between_frames_) return matchedWithLastFrame(body, std::move(prediction));
   const std::vector<bool>& followed = body.sought.followed;
   Guess best = guessAt(body, std::move(prediction));
   if (matchesOn(followed, best.features.found.matches) <
@@ -90,15 +88,6 @@ AlignedGuess Guesses::aligned(const GuessedBody& body, Guess guess) {
     motions = alignedMotions(body, guess.view, guess.labels, matches);
   }
   return {std::move(guess), std::move(motions)};
-}
-
-/// The prediction says only which features can be seen.
-Guess Guesses::matchedWithLastFrame(const GuessedBody& body, View view) {
-  Labels labels = labelsOf(body, view);
-  FoundFeatures features = finder_.expect(body.sought, view.surface, labels);
-  features.found = frame_matcher_.match(body.sought.known, features.expected,
-                                        finder_.keypointsOfImage(body.sought), body.sought.frame);
-  return {std::move(view), std::move(labels), std::move(features)};
 }
 
 /// Looks for the features around their expected pixels. If scouts show that the view is far off, the others

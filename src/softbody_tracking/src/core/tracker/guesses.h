@@ -6,7 +6,6 @@
 #include "labels/labeling.h"
 #include "tracker/backoff.h"
 #include "tracker/feature_finder.h"
-#include "tracker/frame_matcher.h"
 #include "tracker/piece_search.h"
 #include "view/view_measurements.h"
 
@@ -47,14 +46,6 @@ Labels silhouetteLabels(const GuessedBody& body, const View& view);
 /// It keeps from frame to frame when to search the whole image again.
 class Guesses {
  public:
-  explicit Guesses(const TrackerConfig& config)
-      : between_frames_(config.features.between_frames), finder_(config), frame_matcher_(config.features) {}
-
-  void setConfig(const FeatureConfig& config) {
-    finder_.setConfig(config);
-    frame_matcher_.setConfig(config);
-  }
-
   /// The best guess. @param prediction the rendered prediction.
   Guess best(const GuessedBody& body, View prediction);
 
@@ -67,15 +58,12 @@ class Guesses {
   static AlignedGuess aligned(const GuessedBody& body, Guess guess);
 
  private:
-  Guess matchedWithLastFrame(const GuessedBody& body, View view);
   Guess guessAt(const GuessedBody& body, View view) const;
   Guess guessAt(const GuessedBody& body, const Points& vertices) const;
   Guess movedGuess(const GuessedBody& body, Guess guess);
   Guess withPiecesFound(const GuessedBody& body, const std::vector<bool>& due, Guess guess);
 
-  bool between_frames_;
   FeatureFinder finder_;
-  FrameMatcher frame_matcher_;
   Backoff wide_search_;
   PieceSearch piece_search_;
 };

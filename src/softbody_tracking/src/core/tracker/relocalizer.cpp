@@ -102,7 +102,7 @@ std::optional<FoundPose> Relocalizer::searchByFeatures(const RgbdFrame& frame, F
   feature_search_.failed();
   const auto scope = timer->stage("Model Registration", true);
   const PoseHypothesis found = searchNearPose(withoutKnownDepth(frame), meshesOf(observer->model().surface()),
-                                              roughPose(*rough, config_), config_);
+                                              roughPose(*rough, config_));
   // Features distinguish poses that are alike in depth.
   if (found.cost > kDeformedCost || !confirms(observer->featureShare(frame, found.pose))) return std::nullopt;
   return FoundPose{found.pose, 1};
@@ -125,7 +125,7 @@ SearchOutcome Relocalizer::searchByDepthNow(const RgbdFrame& frame, const Search
   const Eigen::Isometry3d T_camera_fixed = frame.T_fixed_camera.inverse();
   if (given_ && !recovering_) {
     const SearchOutcome near =
-        searchNearAccepted(frame, meshes, roughPose(T_camera_fixed * *given_, config_), config_);
+        searchNearAccepted(frame, meshes, roughPose(T_camera_fixed * *given_, config_));
     if (near.found || !searchesAnywhere()) return near;
   }
   std::vector<Eigen::Isometry3d> guesses;
@@ -135,7 +135,7 @@ SearchOutcome Relocalizer::searchByDepthNow(const RgbdFrame& frame, const Search
   const auto feature_share = [&](const Eigen::Isometry3d& pose) {
     return observer->featureShare(frame, pose);
   };
-  return searchAnywhere(frame, observer->colors(), meshes, guesses, feature_share, config_, expected);
+  return searchAnywhere(frame, observer->colors(), meshes, guesses, feature_share, expected);
 }
 
 /// Where a lost body may be.
@@ -151,10 +151,10 @@ SearchReport Relocalizer::explained(const RgbdFrame& frame, const SearchMeshes& 
                                     const FrameObserver& observer, const SearchOutcome& outcome) {
   std::optional<RoughPose> rough;
   if (!searchesAnywhere()) rough = roughPose(frame.T_fixed_camera.inverse() * *given_, config_);
-  SearchReport report = measureSearch(frame, observer.colors(), meshes, outcome, rough, config_);
+  SearchReport report = measureSearch(frame, observer.colors(), meshes, outcome, rough);
   if (recovering_) return report;
   if (scale_search_.isDue(frame.stamp)) {
-    fitting_scale_ = fittingScale(frame, observer.colors(), meshes, outcome.best, config_);
+    fitting_scale_ = fittingScale(frame, observer.colors(), meshes, outcome.best);
     scale_search_.failed();
   }
   report.fitting_scale = fitting_scale_;

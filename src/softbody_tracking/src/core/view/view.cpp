@@ -5,8 +5,7 @@
 namespace softbody {
 
 ViewSettings::ViewSettings(const TrackerConfig& config)
-    : wanted_samples(config.depth.max_targets),
-      contours(!config.knn_targets && config.use_depth && config.outline.weight > 0.0) {}
+    : wanted_samples(config.max_depth_targets), contours(config.outline_weight > 0.0) {}
 
 View render(std::shared_ptr<const SurfaceModel> model, const Pinhole& camera, const Points& volume_vertices,
             const ViewSettings& settings, RasterMemory* memory) {

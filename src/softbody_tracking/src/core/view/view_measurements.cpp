@@ -6,9 +6,8 @@
 namespace softbody {
 
 MeasurementWeights::MeasurementWeights(const TrackerConfig& config, const TetTopology& volume)
-    : depth{config.depth.weight, meanEdgeLength(volume.rest_vertices, volume.tets),
-            config.depth.max_distance_m},
-      contour{config.outline.weight, depth.edge_m} {}
+    : depth{config.depth_weight, meanEdgeLength(volume.rest_vertices, volume.tets)},
+      contour{config.outline_weight, depth.edge_m} {}
 
 DepthAssociations depthOf(const RgbdFrame& frame, const View& view, const RigidMotions& motions,
                           const Labels& labels, const MeasurementWeights& weights, int pixel_step) {

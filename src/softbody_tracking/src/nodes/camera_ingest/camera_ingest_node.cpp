@@ -10,11 +10,10 @@ namespace softbody {
 
 CameraIngestNode::CameraIngestNode(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle)
     : options_(readOptions(private_handle, cameraIngestNodeParameters())) {
-  const auto queue_size = static_cast<std::uint32_t>(options_.pairing.queue_size);
   ingest_.emplace(options_.ingest);
   pairer_.emplace(options_.pairing);
-  outputs_.emplace(handle, options_.voxel_size_m, queue_size);
-  watch_.emplace(handle, private_handle, options_.pairing, options_.limits,
+  outputs_.emplace(handle, options_.voxel_size_m);
+  watch_.emplace(handle, private_handle, options_.pairing.tolerance, options_.silence_timeout_s,
                  [this] { return streamTopics(); });
   const auto lookup = [this](const auto& target, const auto& source, const auto&) {
     return newestTransform(target, source);
@@ -22,12 +21,11 @@ CameraIngestNode::CameraIngestNode(const ros::NodeHandle& handle, const ros::Nod
   reader_.emplace(CameraReader::Config{handle.resolveName(topics::kCameraColor),
                                        handle.resolveName(topics::kCameraDepth), options_.depth_scale},
                   lookup, [](const std::string& sentence) { ROS_WARN_STREAM(sentence); });
-  subscribe(handle, queue_size);
+  subscribe(handle);
   live_parameters_.emplace(private_handle, cameraIngestNodeParameters(), &options_,
                            [this](const CameraIngestOptions& next) {
                              ingest_.emplace(next.ingest);
                              outputs_->setVoxelSize(next.voxel_size_m);
-                             watch_->setLimits(next.limits);
                            });
 }
 
@@ -41,22 +39,19 @@ CameraIngestNode::~CameraIngestNode() {
   watch_.reset();
 }
 
-void CameraIngestNode::subscribe(ros::NodeHandle handle, std::uint32_t queue_size) {
-  const auto transport = [this](const std::string& own) {
-    return own.empty() ? options_.image_transport : own;
-  };
+void CameraIngestNode::subscribe(ros::NodeHandle handle) {
   const auto refuse = [this](const std::string& why) { watch_->noteRefusal(why); };
   const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
   color_info_ =
-      handle.subscribe(topics::kCameraColorInfo, queue_size, &CameraIngestNode::onInfo, this, hints);
+      handle.subscribe(topics::kCameraColorInfo, kMostWaiting, &CameraIngestNode::onInfo, this, hints);
   depth_info_subscriber_ = handle.subscribe<sensor_msgs::CameraInfo>(
-      topics::kCameraDepthInfo, queue_size, [this](const auto& info) { depth_info_ = info; }, {}, hints);
+      topics::kCameraDepthInfo, kMostWaiting, [this](const auto& info) { depth_info_ = info; }, {}, hints);
   color_.emplace(
-      handle, topics::kCameraColor, transport(options_.color_transport), queue_size,
-      [this](const auto& image) { onColor(image); }, refuse);
+      handle, topics::kCameraColor, options_.color_transport, [this](const auto& image) { onColor(image); },
+      refuse);
   depth_.emplace(
-      handle, topics::kCameraDepth, transport(options_.depth_transport), queue_size,
-      [this](const auto& image) { onDepth(image); }, refuse);
+      handle, topics::kCameraDepth, options_.depth_transport, [this](const auto& image) { onDepth(image); },
+      refuse);
 }
 
 StreamTopics CameraIngestNode::streamTopics() const {

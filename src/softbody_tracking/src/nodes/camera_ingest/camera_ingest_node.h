@@ -30,7 +30,7 @@ class CameraIngestNode {
   using Pairer =
       FramePairer<sensor_msgs::ImageConstPtr, sensor_msgs::ImageConstPtr, sensor_msgs::CameraInfoConstPtr>;
 
-  void subscribe(ros::NodeHandle handle, std::uint32_t queue_size);
+  void subscribe(ros::NodeHandle handle);
   StreamTopics streamTopics() const;
 
   void onColor(const sensor_msgs::ImageConstPtr& image);

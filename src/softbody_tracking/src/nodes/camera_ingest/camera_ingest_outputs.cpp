@@ -14,6 +14,7 @@
 #include "softbody_common/protocol/topics.h"
 #include "softbody_common/ros/camera_messages.h"
 #include "softbody_common/ros/conversions.h"
+#include "softbody_tracking/camera/frame_pairer.h"
 #include "softbody_tracking/camera/point_cloud.h"
 #include "softbody_tracking/ros/conversions.h"
 
@@ -42,16 +43,15 @@ cv::Mat1f depthIn(sensor_msgs::Image* image) {
                    reinterpret_cast<float*>(image->data.data()), image->step);
 }
 
-CameraIngestOutputs::CameraIngestOutputs(ros::NodeHandle handle, double voxel_size_m,
-                                         std::uint32_t queue_size)
+CameraIngestOutputs::CameraIngestOutputs(ros::NodeHandle handle, double voxel_size_m)
     : voxel_size_m_(voxel_size_m),
-      color_(image_transport::ImageTransport(handle).advertise(topics::kRgbRect, queue_size)),
-      depth_(image_transport::ImageTransport(handle).advertise(topics::kDepthRect, queue_size)),
-      info_(handle.advertise<sensor_msgs::CameraInfo>(topics::kRgbInfo, queue_size)),
-      depth_info_(handle.advertise<sensor_msgs::CameraInfo>(topics::kDepthRectInfo, queue_size)),
-      points_(handle.advertise<sensor_msgs::PointCloud2>(topics::kPoints, queue_size)),
+      color_(image_transport::ImageTransport(handle).advertise(topics::kRgbRect, kMostWaiting)),
+      depth_(image_transport::ImageTransport(handle).advertise(topics::kDepthRect, kMostWaiting)),
+      info_(handle.advertise<sensor_msgs::CameraInfo>(topics::kRgbInfo, kMostWaiting)),
+      depth_info_(handle.advertise<sensor_msgs::CameraInfo>(topics::kDepthRectInfo, kMostWaiting)),
+      points_(handle.advertise<sensor_msgs::PointCloud2>(topics::kPoints, kMostWaiting)),
       points_marker_(handle.advertise<visualization_msgs::Marker>(topics::kPointsMarker, 1)),
-      timing_(handle.advertise<softbody_msgs::StageTiming>(topics::kTiming, queue_size)) {}
+      timing_(handle.advertise<softbody_msgs::StageTiming>(topics::kTiming, kMostWaiting)) {}
 
 bool CameraIngestOutputs::hasPointSubscriber() const {
   return points_.getNumSubscribers() > 0 || points_marker_.getNumSubscribers() > 0;

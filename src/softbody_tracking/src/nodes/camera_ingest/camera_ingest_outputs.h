@@ -29,9 +29,9 @@ cv::Mat1f depthIn(sensor_msgs::Image* image);
 class CameraIngestOutputs {
  public:
   /// @param voxel_size_m of the points; 0: organised, one point a pixel.
-  /// @param queue_size of each topic. An image that was missing may complete several frames at once, of which
-  /// none may be lost: subscribers choose for themselves whether they want the newest alone.
-  CameraIngestOutputs(ros::NodeHandle handle, double voxel_size_m, std::uint32_t queue_size);
+  /// An image that was missing may complete several frames at once, of which none may be lost: subscribers
+  /// choose for themselves whether they want the newest alone.
+  CameraIngestOutputs(ros::NodeHandle handle, double voxel_size_m);
 
   void setVoxelSize(double voxel_size_m) { voxel_size_m_ = voxel_size_m; }
 

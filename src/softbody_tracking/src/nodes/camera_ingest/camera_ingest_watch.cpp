@@ -15,6 +15,10 @@ namespace softbody {
 namespace {
 
 constexpr double kCheckPeriod_s = 0.5;
+// From an image's stamp to its complete frame. More is not a slow machine: the clocks differ.
+constexpr double kLongestLatency_s = 2.0;
+// Of a stamp before this machine's clock; clocks that are synchronised differ by milliseconds.
+constexpr double kLongestLead_s = 0.1;
 constexpr double kRemarkPeriod_s = 60.0;  // a remark holds for a whole run: not in every screen of the log
 constexpr char kSilentClock[] =
     "use_sim_time is set, but /clock is silent, so the nodes' timers stand still. For a live camera run "
@@ -41,15 +45,15 @@ bool clockIsSilent() { return ros::Time::isSimTime() && ros::Time::now().isZero(
 }  // namespace
 
 CameraIngestWatch::CameraIngestWatch(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle,
-                                     const PairingConfig& pairing, const WatchLimits& limits,
+                                     Nanoseconds tolerance, double silence_timeout_s,
                                      std::function<StreamTopics()> topics)
-    : limits_(limits),
-      tolerance_(pairing.exact ? 0 : pairing.tolerance),
+    : silence_timeout_s_(silence_timeout_s),
+      tolerance_(tolerance),
       topics_(std::move(topics)),
       own_namespace_(handle.getNamespace()),
-      monitor_(tolerance_, nanoseconds(limits.silence_timeout_s)),
+      monitor_(tolerance_, nanoseconds(silence_timeout_s)),
       sync_(tolerance_),
-      watchdog_(limits.silence_timeout_s),
+      watchdog_(silence_timeout_s),
       start_(ros::WallTime::now()),
       last_diagnosis_(start_),
       diagnostics_(
@@ -108,8 +112,8 @@ double CameraIngestWatch::secondsWithoutFrame() const {
 bool CameraIngestWatch::isStarting() const {
   if (hasFrames()) return false;
   // Images that arrive but make no frame are a fault.
-  if (!both_came_.isZero()) return (ros::WallTime::now() - both_came_).toSec() < limits_.silence_timeout_s;
-  return secondsWithoutFrame() < kStartTimeouts * limits_.silence_timeout_s;
+  if (!both_came_.isZero()) return (ros::WallTime::now() - both_came_).toSec() < silence_timeout_s_;
+  return secondsWithoutFrame() < kStartTimeouts * silence_timeout_s_;
 }
 
 std::string CameraIngestWatch::silence() const {
@@ -149,7 +153,7 @@ std::vector<CameraIngestWatch::Remark> CameraIngestWatch::remarks() const {
                                  "the driver's optical frame",
                                  color)});
   // A simulated clock is made of the stamps, and lags behind them.
-  if (!ros::Time::isSimTime() && (latency_s_ > limits_.latency_s || latency_s_ < -limits_.lead_s))
+  if (!ros::Time::isSimTime() && (latency_s_ > kLongestLatency_s || latency_s_ < -kLongestLead_s))
     remarks.push_back(
         {"clock", fmt::format("stamps are {:.1f} s {} this machine's clock, which tf and timers use: "
                               "synchronise the camera's clock; a bag needs use_sim_time and --clock",
@@ -160,7 +164,7 @@ std::vector<CameraIngestWatch::Remark> CameraIngestWatch::remarks() const {
 void CameraIngestWatch::check() {
   if (both_came_.isZero() && monitor_.hasArrived(Stream::kColor) && monitor_.hasArrived(Stream::kDepth))
     both_came_ = ros::WallTime::now();
-  if (secondsWithoutFrame() > limits_.silence_timeout_s) {
+  if (secondsWithoutFrame() > silence_timeout_s_) {
     if (isStarting())
       throttle_.info("start", silence());
     else
@@ -177,7 +181,7 @@ void CameraIngestWatch::diagnose(NodeDiagnostics::Status& status) {
     throttle_.warn(remark.kind, remark.sentence, kRemarkPeriod_s);
     odd.push_back(remark.sentence);
   }
-  if (secondsWithoutFrame() > limits_.silence_timeout_s) {
+  if (secondsWithoutFrame() > silence_timeout_s_) {
     status.summary(isStarting() ? DiagnosticStatus::WARN : DiagnosticStatus::ERROR, silence());
   } else if (refused_ > 0) {
     status.summary(DiagnosticStatus::WARN,

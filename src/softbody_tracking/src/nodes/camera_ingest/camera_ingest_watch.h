@@ -23,13 +23,11 @@ namespace softbody {
 /// wrong with the frames that come, their rate and their latency, and how far colour and depth are apart.
 class CameraIngestWatch {
  public:
+  /// @param tolerance largest difference of the stamps of colour and depth; 0: none.
+  /// @param silence_timeout_s time without a frame, after which it says so.
   /// @param topics of the streams at the moment.
   CameraIngestWatch(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle,
-                    const PairingConfig& pairing, const WatchLimits& limits,
-                    std::function<StreamTopics()> topics);
-
-  /// Of latency and lead; the time of silence stays.
-  void setLimits(const WatchLimits& limits) { limits_ = limits; }
+                    Nanoseconds tolerance, double silence_timeout_s, std::function<StreamTopics()> topics);
 
   /// An image reached the pairer. Logs why it was dropped.
   void noteImage(Stream stream, const ros::Time& stamp, const StampVerdict& verdict);
@@ -56,8 +54,8 @@ class CameraIngestWatch {
   std::map<std::string, std::string> publishedTopics() const;
   std::vector<Remark> remarks() const;
 
-  WatchLimits limits_;
-  const Nanoseconds tolerance_;  ///< largest difference of the stamps of colour and depth; 0: none
+  const double silence_timeout_s_;
+  const Nanoseconds tolerance_;
   std::function<StreamTopics()> topics_;
   std::string own_namespace_;
   StreamMonitor monitor_;

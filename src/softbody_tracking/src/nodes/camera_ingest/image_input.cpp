@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "softbody_tracking/camera/frame_pairer.h"
 #include "softbody_tracking/ros/compressed_image.h"
 
 namespace softbody {
@@ -29,10 +30,9 @@ std::string publishedTransport(const std::string& base_topic) {
 }  // namespace
 
 ImageInput::ImageInput(ros::NodeHandle handle, const std::string& topic, const std::string& transport,
-                       std::uint32_t queue_size, Use use, Refuse refuse) try
+                       Use use, Refuse refuse) try
     : handle_(handle),
       base_topic_(handle.resolveName(topic)),
-      queue_size_(queue_size),
       use_(std::move(use)),
       refuse_(std::move(refuse)) {
   if (transport != "auto") {
@@ -49,13 +49,13 @@ ImageInput::ImageInput(ros::NodeHandle handle, const std::string& topic, const s
 void ImageInput::subscribe(const std::string& transport) {
   if (transport == "compressed" || transport == "compressedDepth") {
     compressed_ = handle_.subscribe<sensor_msgs::CompressedImage>(
-        base_topic_ + "/" + transport, queue_size_, [this](const auto& image) { decode(*image); }, nullptr,
+        base_topic_ + "/" + transport, kMostWaiting, [this](const auto& image) { decode(*image); }, nullptr,
         ros::TransportHints().tcpNoDelay());
     return;
   }
   transport_.emplace(handle_);
   images_ = transport_->subscribe(
-      base_topic_, queue_size_, [this](const sensor_msgs::ImageConstPtr& image) { use_(image); }, nullptr,
+      base_topic_, kMostWaiting, [this](const sensor_msgs::ImageConstPtr& image) { use_(image); }, nullptr,
       image_transport::TransportHints(transport, ros::TransportHints().tcpNoDelay(), handle_,
                                       "no_parameter"));
 }

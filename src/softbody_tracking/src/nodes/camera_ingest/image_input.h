@@ -20,8 +20,8 @@ class ImageInput {
   using Refuse = std::function<void(const std::string& why)>;
 
   /// @throw std::invalid_argument if the transport is not installed.
-  ImageInput(ros::NodeHandle handle, const std::string& topic, const std::string& transport,
-             std::uint32_t queue_size, Use use, Refuse refuse);
+  ImageInput(ros::NodeHandle handle, const std::string& topic, const std::string& transport, Use use,
+             Refuse refuse);
 
   /// The topic without the name of its transport.
   const std::string& baseTopic() const { return base_topic_; }
@@ -35,7 +35,6 @@ class ImageInput {
 
   ros::NodeHandle handle_;
   std::string base_topic_;
-  std::uint32_t queue_size_;
   Use use_;
   Refuse refuse_;
   std::optional<image_transport::ImageTransport> transport_;

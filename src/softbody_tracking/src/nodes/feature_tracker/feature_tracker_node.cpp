@@ -50,7 +50,6 @@ FeatureTrackerNode::FeatureTrackerNode(const ros::NodeHandle& handle, ros::NodeH
       publisher_(handle,
                  output_frame_.claim(ownFrame(options.body_frame, "body_frame", private_handle, "softbody"))),
       stamps_(handle.resolveName(topics::kRgbRect)),
-      watchdog_(options.silence_timeout_s),
       body_(handle, &tracker_, [this, private_handle] { readPicture(private_handle); }),
       blade_(handle, [this](const auto& header) { return output_frame_.poseOf(header, camera_frame_, 0.0); }),
       known_(subscribeToKnown(

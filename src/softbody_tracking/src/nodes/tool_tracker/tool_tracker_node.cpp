@@ -42,7 +42,6 @@ ToolTrackerNode::ToolTrackerNode(const ros::NodeHandle& handle, const ros::NodeH
           output_frame_.claim(requireOther(ownFrame(options.tool_frame, "tool_frame", private_handle, "tool"),
                                            tracker_.tool().frame))),
       stamps_(handle.resolveName(topics::kRgbRect)),
-      watchdog_(options.silence_timeout_s),
       images_(handle, [this](const RectifiedImages& images) { onFrame(images); }),
       diagnostics_(handle, private_handle, "tool", [this](auto& status) { diagnose(status); }) {}
 
