@@ -23,9 +23,7 @@ CAMERAS = [f"cameras/{name}.launch" for name in ("realsense", "azure_kinect", "o
 GRAPHS = {"track.launch": ["object:=/o.yaml"], "rig.launch": ["object:=/o.yaml"], "demo.launch": [],
           "playback.launch": ["object:=/o.yaml", "bag:=/b.bag"]}
 # Arguments, and the parameters that they set.
-GIVEN = ((["gripper_frame:=tool0", "gripper_box:=[-1, -2, -3, 1, 2, 3]"],
-          {"simulator/gripper_frame": "tool0", "simulator/gripper_box": [-1, -2, -3, 1, 2, 3]}),
-         (["blade_frame:=tool0"], {"tool_tracker/blade_frame": "tool0"}),
+GIVEN = ((["blade_frame:=tool0"], {"tool_tracker/blade_frame": "tool0"}),
          (["output_frame:=base_link"],
           {"feature_tracker/output_frame": "base_link", "tool_tracker/output_frame": "base_link"}),
          (["known_surfaces:=[/doll/surface, /cup/surface]"],
@@ -123,9 +121,9 @@ class LaunchArguments(unittest.TestCase):
     def test_the_gripper_is_a_file_or_a_frame(self):
         for launch in GRAPHS:
             for given, expected in (("my/gripper.yaml", f"{self.directory}/my/gripper.yaml"), ("tool0", "tool0")):
-                parameters = self.parameters(launch, f"gripper:={given}", "gripper_closed:=/claw/closed")
+                parameters = self.parameters(launch, f"gripper:={given}")
                 named = {key.rsplit("/", 1)[1]: value for key, value in parameters.items() if "gripper" in key}
-                self.assertEqual(named, {"gripper": expected, "gripper_closed": "/claw/closed"}, launch)
+                self.assertEqual(named, {"gripper": expected}, launch)
 
     def arguments(self, launch):
         """Names of a launch file's arguments, all of them with a description."""

@@ -71,7 +71,7 @@ TEST_F(RecordedBody, TheLastRestIsUsedIfNothingMoves) {
   for (int k = 0; k < 30; ++k) addFrame(0.0, 0.0001);
   for (int k = 0; k < 30; ++k) addFrame(0.001 * k, 0.0001);
   for (int k = 0; k < 40; ++k) addFrame(0.03, 0.0001);
-  const RecordedObservations recorded = observationsOf(frames_, {}, rest_, {false, 0.001});
+  const RecordedObservations recorded = observationsOf(frames_, {}, rest_, false);
   ASSERT_EQ(recorded.observations.size(), 1u);
   EXPECT_EQ(recorded.observations[0].stamp, frames_.back().stamp);
   EXPECT_EQ(recorded.observations[0].targets.size(), 3u * 30u);
@@ -80,7 +80,7 @@ TEST_F(RecordedBody, TheLastRestIsUsedIfNothingMoves) {
 
 TEST_F(RecordedBody, ABodyThatNeverRestsIsNamed) {
   for (int k = 0; k < 60; ++k) addFrame(0.001 * k, 0.0001);
-  EXPECT_THROW(observationsOf(frames_, {}, rest_, {false, 0.001}), std::invalid_argument);
+  EXPECT_THROW(observationsOf(frames_, {}, rest_, false), std::invalid_argument);
 }
 
 TEST_F(RecordedBody, AMovingClampGivesMomentsWithItsWrench) {
@@ -94,7 +94,7 @@ TEST_F(RecordedBody, AMovingClampGivesMomentsWithItsWrench) {
     record.samples.push_back(sample);
   }
   EXPECT_NEAR(noiseOf(record.samples), 0.05, 0.01);
-  const RecordedObservations recorded = observationsOf(frames_, {record}, rest_, {false, 0.001});
+  const RecordedObservations recorded = observationsOf(frames_, {record}, rest_, false);
   EXPECT_EQ(recorded.observations.size(), 24u);
   for (const ShapeObservation& observation : recorded.observations) {
     ASSERT_EQ(observation.wrenches.size(), 1u);

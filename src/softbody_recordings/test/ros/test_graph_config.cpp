@@ -87,31 +87,27 @@ TEST_F(GraphConfigTest, SaysWhatAReplayMisses) {
 TEST_F(GraphConfigTest, ReadsTheSurroundings) {
   const SurroundingsConfig surroundings =
       read(
-          "simulator: {obstacles: [{name: table, shape: plane, frame: /world}], gripper_frame: hand, "
-          "gripper_fingers: left right, pin_accuracy_m: 0.003, frame_timeout_s: 2}\n")
+          "simulator: {obstacles: [{name: table, shape: plane, frame: /world}], gripper: hand, "
+          "pin_accuracy_m: 0.003}\n")
           .pipeline.surroundings;
   EXPECT_TRUE(warnings_.empty()) << warnings_.front();
-  ASSERT_EQ(surroundings.obstacles.size(), 3u);  // with the fingers
+  ASSERT_EQ(surroundings.obstacles.size(), 1u);
   EXPECT_EQ(surroundings.obstacles.front().frame, "world");
   EXPECT_EQ(surroundings.gripper->frame, "hand");
   EXPECT_EQ(surroundings.gripper_closed, "/gripper/closed");
-  EXPECT_EQ(surroundings.pins.accuracy_m, 0.003);
-  EXPECT_EQ(surroundings.pins.frame_timeout_s, 2.0);
+  EXPECT_EQ(surroundings.pin_accuracy_m, 0.003);
   read("simulator: {obstacles: [{name: table, shape: plane, colour: red}]}\n");
   ASSERT_EQ(warnings_.size(), 1u);
   EXPECT_TRUE(says(warnings_.front(), "colour"));
-  EXPECT_NE(refusalOf("simulator: {gripper_frame: hand, gripper_finger_size: [0, 1, 1]}\n"), "");
 }
 
-TEST_F(GraphConfigTest, TextsReplaceParametersOfTheSimulator) {
-  std::ofstream(path_) << "simulator: {gripper: hand, gripper_fingers: left right}\n"
+TEST_F(GraphConfigTest, AnotherGripperReplacesThatOfTheParameters) {
+  std::ofstream(path_) << "simulator: {gripper: hand}\n"
                           "tool_tracker: {blade_frame: tool0}\n";
-  const GraphConfig config = readGraphConfig(
-      path_, &warnings_, {{"gripper", "/claw"}, {"gripper_fingers", ""}, {"gripper_closed", "/claw/closed"}});
+  EXPECT_EQ(readGraphConfig(path_, &warnings_).pipeline.surroundings.gripper->frame, "hand");
+  const GraphConfig config = readGraphConfig(path_, &warnings_, "/claw");
   EXPECT_TRUE(warnings_.empty()) << warnings_.front();
   EXPECT_EQ(config.pipeline.surroundings.gripper->frame, "claw");
-  EXPECT_EQ(config.pipeline.surroundings.obstacles.size(), 2u);
-  EXPECT_EQ(config.pipeline.surroundings.gripper_closed, "/claw/closed");
   EXPECT_EQ(config.blade_frame, "tool0");
 }
 

@@ -38,7 +38,7 @@ const ParameterTable<SimulatorOptions>& simulatorNodeParameters() {
 SimulatorOptions readSimulatorOptions(const ros::NodeHandle& private_node) {
   SimulatorOptions options = readOptions(private_node, simulatorNodeParameters());
   options.body_frame = ownFrame(options.body_frame, "body_frame", private_node, "softbody");
-  for (const std::string& key : unknownKeys(options.surroundings))
+  for (const std::string& key : options.surroundings.unknown)
     ROS_WARN_STREAM("unknown parameter " << key << " is ignored");
   return options;
 }

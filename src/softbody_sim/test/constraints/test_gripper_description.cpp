@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
-#include <yaml-cpp/yaml.h>
 
 #include <filesystem>
 #include <fstream>
@@ -10,25 +9,17 @@
 namespace softbody {
 namespace {
 
-std::optional<GripperDescription> readGripper(Parameters& given, std::vector<std::string>* unknown) {
-  const GripperWords words = gripperParameters().read(given);
-  *unknown = words.unknown;
-  return gripperOf(words);
-}
-
 class GripperDescriptionTest : public ::testing::Test {
  protected:
   void TearDown() override { std::filesystem::remove(path_); }
 
-  /// The gripper of a YAML, and of parameters beside it.
-  std::optional<GripperDescription> read(const std::string& file, const std::string& parameters = "") {
+  std::optional<GripperDescription> read(const std::string& file) {
     std::ofstream(path_) << file;
-    Parameters given(YAML::Load("{gripper: " + path_ + (parameters.empty() ? "" : ", " + parameters) + "}"));
-    return readGripper(given, &unknown_);
+    return readGripper(path_, &unknown_);
   }
-  std::string refusalOf(const std::string& file, const std::string& parameters = "") {
+  std::string refusalOf(const std::string& file) {
     try {
-      read(file, parameters);
+      read(file);
     } catch (const std::invalid_argument& error) {
       return error.what();
     }
@@ -56,28 +47,14 @@ TEST_F(GripperDescriptionTest, AFileDescribesAllOfIt) {
   EXPECT_EQ(unknown_.front(), path_ + ": gripper/colour");
 }
 
-TEST_F(GripperDescriptionTest, AParameterReplacesWhatTheFileSays) {
-  const auto gripper = read("gripper: {frame: hand, fingers: [left, right], closed: /hand/closed}",
-                            "gripper_frame: claw, gripper_fingers: one, gripper_closed: /claw/closed, "
-                            "gripper_box: [-1, -2, -3, 1, 2, 3]");
-  ASSERT_TRUE(gripper);
-  EXPECT_EQ(gripper->space.frame, "claw");
-  EXPECT_EQ(gripper->space.max, Eigen::Vector3d(1, 2, 3));
-  EXPECT_EQ(gripper->closed, "/claw/closed");
-  ASSERT_EQ(gripper->fingers.size(), 1u);
-  EXPECT_EQ(gripper->fingers[0].frame, "one");
-}
-
 TEST_F(GripperDescriptionTest, AFrameIsEnough) {
-  Parameters parameters(YAML::Load("{gripper: tool0}"));
-  const auto gripper = readGripper(parameters, &unknown_);
+  const auto gripper = readGripper("tool0", &unknown_);
   ASSERT_TRUE(gripper);
   EXPECT_EQ(gripper->space.frame, "tool0");
   EXPECT_GT((gripper->space.max - gripper->space.min).minCoeff(), 0.0);
   EXPECT_TRUE(gripper->fingers.empty());
   EXPECT_EQ(gripper->closed, "gripper/closed");
-  Parameters none;
-  EXPECT_FALSE(readGripper(none, &unknown_));
+  EXPECT_FALSE(readGripper("", &unknown_));
 }
 
 TEST_F(GripperDescriptionTest, BadFilesAreRefusedWithFileKeyAndValue) {
@@ -100,10 +77,7 @@ TEST_F(GripperDescriptionTest, BadFilesAreRefusedWithFileKeyAndValue) {
     EXPECT_NE(message.find(path_), std::string::npos) << message;
     for (const std::string& word : bad.words) EXPECT_NE(message.find(word), std::string::npos) << message;
   }
-  EXPECT_NE(refusalOf("gripper: {frame: hand}", "gripper_box: [0, 0, 0, 0, 1, 1]").find("gripper_box"),
-            std::string::npos);
-  Parameters missing(YAML::Load("{gripper: /nowhere/gripper.yaml}"));
-  EXPECT_THROW(readGripper(missing, &unknown_), std::invalid_argument);
+  EXPECT_THROW(readGripper("/nowhere/gripper.yaml", &unknown_), std::invalid_argument);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include "fixtures/model_files.h"
 #include "fixtures/test_meshes.h"
+#include "softbody_common/target_limits.h"
 #include "softbody_sim/dynamics/simulator.h"
 
 namespace softbody {
@@ -72,7 +73,7 @@ class Beam {
       for (int v = 0; v < shape.rows(); ++v) {
         if (rest()(v, 2) > 0.039) seen_.targets.push_back(all[static_cast<std::size_t>(v)]);
       }
-      const double accuracy = SimulatorConfig().target_accuracy_m / said_noise;
+      const double accuracy = kTargetAccuracy_m / said_noise;
       for (Target& target : seen_.targets) target.weight = accuracy * accuracy;
       simulator_.step(seen_, ++frame_ * kFrame, surroundings_);
     }

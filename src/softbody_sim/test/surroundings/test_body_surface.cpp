@@ -146,9 +146,8 @@ TEST(BodySurface, APinnedPatchStaysAndCarriesTheWeight) {
   config.gravity = {0.0, 0.0, -9.81};
   Simulator simulator(volume, material, config);
   simulator.step(testing::placing(kAtRest), testing::kFrame);
-  PinOptions stiff;
-  stiff.accuracy_m = 0.0;
-  SurroundingsFollower follower(stiff, BodySurface(visualMesh(), volume));
+  constexpr double kExact = 0.0;
+  SurroundingsFollower follower(kExact, BodySurface(visualMesh(), volume));
   const Eigen::Vector3d corner = kMargin + kSize;
   const Eigen::AlignedBox3d box = boxAt(corner, 0.005);
   EXPECT_GT(follower.addPin({"patch", "", box.min(), box.max()}, volume), 0U);

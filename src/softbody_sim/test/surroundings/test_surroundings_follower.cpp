@@ -51,7 +51,7 @@ class FollowedSurroundings : public ::testing::Test {
   const TetTopology topology_ = sponge();
   const Points rest_ = topology_.rest_vertices;
   std::map<std::string, Eigen::Isometry3d> poses_;
-  SurroundingsFollower follower_{PinOptions()};
+  SurroundingsFollower follower_{0.001};
   std::mt19937 random_{7};
 };
 

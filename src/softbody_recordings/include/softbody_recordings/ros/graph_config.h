@@ -1,6 +1,5 @@
 #pragma once
 
-#include <map>
 #include <string>
 #include <vector>
 
@@ -23,10 +22,10 @@ struct GraphConfig {
 /// Reads the parameters that a replay uses. Ignores parameters that concern only the live graph.
 /// @param path of a YAML file; if empty, all parameters have their defaults.
 /// @param warnings gets unknown keys, and keys that change the live graph but not a replay.
-/// @param simulator texts that replace parameters of the simulator, by key; empty ones do not.
+/// @param gripper replaces the simulator's parameter `gripper`, unless it is empty.
 /// @throw std::invalid_argument if the file cannot be read, a section is not the name of a node, or a value
 /// is not allowed.
 GraphConfig readGraphConfig(const std::string& path, std::vector<std::string>* warnings,
-                            const std::map<std::string, std::string>& simulator = {});
+                            const std::string& gripper = "");
 
 }  // namespace softbody

@@ -19,9 +19,6 @@ struct ReplayOptions {
   std::vector<std::string> known_surfaces;  ///< namespaces of surfaces that the input also has
   std::string robot;                        ///< URDF; empty: no robot
   std::string gripper;                      ///< YAML of a gripper, or its frame; empty: from the parameters
-  std::string gripper_frame;                ///< between the fingers of a gripper; empty: from the parameters
-  std::string gripper_fingers;  ///< frames of the fingers, separated by spaces; empty: from the parameters
-  std::string gripper_closed;   ///< topic (std_msgs/Bool) of the input; empty: from the parameters
   CameraTopics camera = "/camera";
   std::string topic_namespace =
       "/softbody";                          ///< of the output topics of one body; several: objectNamespaces()

@@ -9,11 +9,14 @@
 #include "identification/mean_wrench.h"
 #include "identification/rigid_pins.h"
 #include "softbody_common/geometry/rigid_fit.h"
+#include "softbody_common/protocol/target_limits.h"
 #include "softbody_common/time/time.h"
 
 namespace softbody {
 namespace {
 
+/// Less motion does not show.
+constexpr double kNoticeable_m = kTargetAccuracy_m;
 constexpr double kShortestRest_s = 0.5;   // a pendulum of a body that can be tracked is faster
 constexpr std::size_t kMostImages = 30;   // of one observation; more repeat the same errors
 constexpr std::size_t kMostMoments = 24;  // of a motion
@@ -41,10 +44,10 @@ double moved(const SeenFrame& a, const SeenFrame& b) {
 }
 
 /// The last frames in which the body rests, or nothing.
-Section lastRest(const std::vector<SeenFrame>& frames, double noticeable_m) {
+Section lastRest(const std::vector<SeenFrame>& frames) {
   for (std::size_t end = frames.size(); end > 0; --end) {
     std::size_t begin = end - 1;
-    while (begin > 0 && moved(frames[begin - 1].vertices, frames[end - 1].vertices) < 0.5 * noticeable_m)
+    while (begin > 0 && moved(frames[begin - 1].vertices, frames[end - 1].vertices) < 0.5 * kNoticeable_m)
       --begin;
     if (seconds(frames[end - 1].stamp - frames[begin].stamp) >= kShortestRest_s) return {begin, end};
   }
@@ -73,9 +76,8 @@ std::vector<SeenFrame> heldFrames(std::vector<SeenFrame> frames) {
 
 class Builder {
  public:
-  Builder(const std::vector<SeenFrame>& frames, const std::vector<WrenchRecord>& wrenches, const Points& rest,
-          const ObservationChoice& choice)
-      : frames_(frames), wrenches_(wrenches), pins_(rigidPins(frames, rest, choice.noticeable_m)) {}
+  Builder(const std::vector<SeenFrame>& frames, const std::vector<WrenchRecord>& wrenches, const Points& rest)
+      : frames_(frames), wrenches_(wrenches), pins_(rigidPins(frames, rest, kNoticeable_m)) {}
 
   /// The targets of some frames in the surroundings of the last of them.
   ShapeObservation observation(const std::vector<std::size_t>& chosen) {
@@ -113,21 +115,21 @@ double since(const std::vector<SeenFrame>& frames, std::size_t k) {
 
 RecordedObservations observationsOf(const std::vector<SeenFrame>& all_frames,
                                     const std::vector<WrenchRecord>& wrenches, const Points& rest_vertices,
-                                    const ObservationChoice& choice) {
+                                    bool swings) {
   const std::vector<SeenFrame> frames = heldFrames(all_frames);
-  Builder builder(frames, wrenches, rest_vertices, choice);
+  Builder builder(frames, wrenches, rest_vertices);
   RecordedObservations recorded;
   double way = 0.0;
   for (const SeenFrame& frame : frames) way = std::max(way, moved(frames.back(), frame));
   const Section all{0, frames.size()};
-  if (choice.moves || way > choice.noticeable_m) {
-    const auto chosen = spread(all, choice.moves ? frames.size() : kMostMoments);
+  if (swings || way > kNoticeable_m) {
+    const auto chosen = spread(all, swings ? frames.size() : kMostMoments);
     for (const std::size_t k : chosen) recorded.observations.push_back(builder.observation({k}));
     recorded.sentence =
         fmt::format("used: {} moments from {:.2f} to {:.2f} s of the tracked time", chosen.size(),
                     since(frames, chosen.front()), since(frames, chosen.back()));
   } else {
-    const Section rest = lastRest(frames, choice.noticeable_m);
+    const Section rest = lastRest(frames);
     if (rest.end == 0)
       throw std::invalid_argument(fmt::format(
           "the body never rests for {} s in the recording: wait until it hangs still, or find its "

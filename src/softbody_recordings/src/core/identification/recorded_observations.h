@@ -8,12 +8,6 @@
 
 namespace softbody {
 
-/// Which frames of a recording are used.
-struct ObservationChoice {
-  bool moves = false;           ///< all frames in a row: the body swings
-  double noticeable_m = 0.001;  ///< deviation of a target: less motion does not show
-};
-
 /// Observations of a recording of a body, and what was chosen, in a sentence.
 struct RecordedObservations {
   std::vector<ShapeObservation> observations;
@@ -24,10 +18,11 @@ struct RecordedObservations {
 /// Where pins and obstacles stay where they are, the last time for which the body hangs still is one
 /// observation with the targets of many images. Where they move, the body is seen at evenly spaced moments of
 /// their motion; it is taken to be in balance in each.
-/// @param frames by stamp, not empty. @param rest_vertices #V by 3 [m].
+/// @param frames by stamp, not empty. @param rest_vertices #V by 3 [m]. @param swings uses all frames in a
+/// row.
 /// @throw std::invalid_argument with what the recording lacks, and what to do.
 RecordedObservations observationsOf(const std::vector<SeenFrame>& frames,
                                     const std::vector<WrenchRecord>& wrenches, const Points& rest_vertices,
-                                    const ObservationChoice& choice);
+                                    bool swings);
 
 }  // namespace softbody

@@ -9,7 +9,7 @@ namespace softbody {
 
 BodySurroundings::BodySurroundings(const SurroundingsConfig& config, const std::vector<PinRegion>& pins,
                                    const BodySurface& surface, const TetTopology& volume)
-    : gripper_(config.gripper), follower_(config.pins, surface) {
+    : gripper_(config.gripper), follower_(config.pin_accuracy_m, surface) {
   for (const ObstacleDescription& obstacle : config.obstacles) follower_.setObstacle(obstacle);
   for (const PinRegion& pin : pins) follower_.addPin(pin, volume);
 }

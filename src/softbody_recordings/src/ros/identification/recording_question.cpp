@@ -81,10 +81,7 @@ RecordingAnswer answer(const RecordingQuestion& question, const ObjectDescriptio
                        const ObjectModel& model, const std::function<void(const std::string&)>& warn,
                        const std::function<void(double)>& progress) {
   std::vector<std::string> warnings;
-  const GraphConfig config = readGraphConfig(question.parameters, &warnings,
-                                             {{"gripper", question.gripper},
-                                              {"gripper_frame", question.gripper_frame},
-                                              {"gripper_closed", question.gripper_closed}});
+  const GraphConfig config = readGraphConfig(question.parameters, &warnings, question.gripper);
   for (const std::string& warning : warnings) warn(warning);
   const std::vector<PinRegion> pins = pinsOf(question, description);
   requireNames(question, config.pipeline.surroundings, pins);
@@ -98,8 +95,7 @@ RecordingAnswer answer(const RecordingQuestion& question, const ObjectDescriptio
   MaterialProblem& problem = found.answer.problem;
   problem.moves = material.free.damping;
   RecordedObservations recorded =
-      observationsOf(recording.frames, recording.wrenches, model.volume.rest_vertices,
-                     {problem.moves, problem.simulator.target_accuracy_m});
+      observationsOf(recording.frames, recording.wrenches, model.volume.rest_vertices, problem.moves);
   problem.observations = std::move(recorded.observations);
   problem.body_pose = recorded.body_pose;
   found.answer.estimate =

@@ -33,8 +33,8 @@ struct RecordingQuestion {
   std::vector<LaidWeight> weights;
   double wrench_std_n = 0.0;  ///< least deviation of a component of a measured force
   std::string frame;          ///< in which the body is simulated, z up; empty: of the parameters, or world
-  std::string gripper, gripper_frame, gripper_closed;  ///< as in ReplayOptions
-  double from_s = 0.0, to_s = 1e9;                     ///< the used part, from the beginning of the recording
+  std::string gripper;        ///< as in ReplayOptions
+  double from_s = 0.0, to_s = 1e9;  ///< the used part, from the beginning of the recording
 };
 
 /// What was found, and how.

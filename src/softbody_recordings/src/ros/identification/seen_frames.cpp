@@ -45,7 +45,7 @@ class Followed {
   Followed(const SurroundingsConfig& config, const std::vector<PinRegion>& pins, const ObjectModel& model)
       : gripper_(config.gripper),
         volume_(model.volume),
-        follower_(config.pins, {model.visual, model.volume}) {
+        follower_(config.pin_accuracy_m, {model.visual, model.volume}) {
     for (const ObstacleDescription& obstacle : config.obstacles) follower_.setObstacle(obstacle);
     for (const PinRegion& pin : pins) follower_.addPin(pin, volume_);
   }

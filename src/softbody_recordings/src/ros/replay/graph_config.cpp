@@ -57,12 +57,10 @@ auto readSection(const YAML::Node& file, const std::string& name, const Known& k
   return config;
 }
 
-SurroundingsConfig readSurroundings(Parameters& parameters, const SimulatorConfig& simulator,
-                                    std::vector<std::string>* warnings) {
-  const SurroundingsParameters given = surroundingsParameters().read(parameters);
-  for (const std::string& key : unknownKeys(given))
+SurroundingsConfig readSurroundings(Parameters& parameters, std::vector<std::string>* warnings) {
+  SurroundingsConfig config = surroundingsParameters().read(parameters);
+  for (const std::string& key : config.unknown)
     warnings->push_back(fmt::format("unknown parameter {} is ignored", key));
-  SurroundingsConfig config = surroundingsOf(given, simulator.target_accuracy_m);
   for (ObstacleDescription& obstacle : config.obstacles) obstacle.frame = withoutSlash(obstacle.frame);
   if (!config.gripper) return config;
   config.gripper->frame = withoutSlash(config.gripper->frame);
@@ -73,10 +71,9 @@ SurroundingsConfig readSurroundings(Parameters& parameters, const SimulatorConfi
 }  // namespace
 
 GraphConfig readGraphConfig(const std::string& path, std::vector<std::string>* warnings,
-                            const std::map<std::string, std::string>& simulator) {
+                            const std::string& gripper) {
   YAML::Node file = path.empty() ? YAML::Node(YAML::NodeType::Map) : sectionsOf(path);
-  for (const auto& [key, text] : simulator)
-    if (!text.empty() && !file["simulator"].IsScalar()) file["simulator"][key] = text;
+  if (!gripper.empty() && !file["simulator"].IsScalar()) file["simulator"]["gripper"] = gripper;
   const auto read = [&](const std::string& name, const Known& known, auto reader) {
     return readSection(file, name, known, warnings, reader);
   };
@@ -95,10 +92,9 @@ GraphConfig readGraphConfig(const std::string& path, std::vector<std::string>* w
   read("pose_marker", {}, [](Parameters& given) { return poseMarkerNodeParameters().read(given); });
   config.pipeline.simulator =
       read("simulator", {simulatorNodeParameters().describe(), {"wrench_frame"}}, [&](Parameters& given) {
-        const SimulatorConfig simulator_config = simulatorParameters().read(given);
         config.pipeline.material = materialParameters().read(given);
-        config.pipeline.surroundings = readSurroundings(given, simulator_config, warnings);
-        return simulator_config;
+        config.pipeline.surroundings = readSurroundings(given, warnings);
+        return simulatorParameters().read(given);
       });
   config.pipeline.cutting = read("surface", {surfaceNodeParameters().describe(), {}},
                                  [](Parameters& given) { return cuttingParameters().read(given); });

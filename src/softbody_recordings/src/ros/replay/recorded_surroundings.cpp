@@ -23,8 +23,8 @@ RecordedSurroundings::RecordedSurroundings(const rosbag::Bag& bag, const Surroun
     closed_[message.getTime()] = instantiate<std_msgs::Bool>(message, bag)->data != 0;
   if (closed_.empty())
     warn(
-        fmt::format("the gripper never closes: {} has no message on {}; record it, or name its topic "
-                    "(--gripper-closed)",
+        fmt::format("the gripper never closes: {} has no message on {}; record it, or name its topic in "
+                    "the gripper's YAML",
                     bag.getFileName(), config.gripper_closed));
 } catch (const rosbag::BagException& error) {
   throw damagedBag(bag.getFileName(), error);

@@ -54,11 +54,7 @@ cv::Mat3b loadPicture(const std::string& object, FileScope scope, const Warn& wa
 
 GraphConfig configOf(const ReplayOptions& options, const Warn& warn) {
   std::vector<std::string> warnings;
-  GraphConfig config = readGraphConfig(options.parameters, &warnings,
-                                       {{"gripper", options.gripper},
-                                        {"gripper_frame", options.gripper_frame},
-                                        {"gripper_fingers", options.gripper_fingers},
-                                        {"gripper_closed", options.gripper_closed}});
+  GraphConfig config = readGraphConfig(options.parameters, &warnings, options.gripper);
   warnAll(warn, "", warnings);
   config.pipeline.forces = options.forces, config.pipeline.placed = options.placed;
   if (!options.simd.empty()) config.pipeline.simulator.simd = options.simd;

@@ -88,14 +88,6 @@ void declareFrames(CLI::App* app, CLI::Option* recording, RecordingQuestion* ask
                   "YAML of a gripper, or the frame between its fingers: what it "
                   "grips is held; replaces the parameter")
       ->needs(recording);
-  app->add_option("--gripper-frame", question.gripper_frame,
-                  "frame between a gripper's fingers; replaces that of --gripper "
-                  "and the parameter")
-      ->needs(recording);
-  app->add_option("--gripper-closed", question.gripper_closed,
-                  "topic (std_msgs/Bool) that says when the gripper is closed; "
-                  "default: of the gripper's YAML, or /gripper/closed")
-      ->needs(recording);
   app->add_option("--from", question.from_s, "used part of the recording: its begin [s]")->needs(recording);
   app->add_option("--to", question.to_s, "its end [s]")->needs(recording);
   addCameraOptions(app, &question.camera);

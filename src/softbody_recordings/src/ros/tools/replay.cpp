@@ -19,13 +19,6 @@ void declareGripper(CLI::App* app, ReplayOptions* options) {
   app->add_option("--gripper", options->gripper,
                   "YAML of a gripper, or the frame between its fingers, in the bag's tf: what it grips is "
                   "held; replaces the parameter");
-  app->add_option("--gripper-frame", options->gripper_frame,
-                  "frame between a gripper's fingers; replaces that of --gripper and the parameter");
-  app->add_option("--gripper-fingers", options->gripper_fingers,
-                  "frames of the fingers, separated by spaces; replaces the parameter");
-  app->add_option("--gripper-closed", options->gripper_closed,
-                  "topic (std_msgs/Bool) that says when the gripper is closed; default: of the gripper's "
-                  "YAML, or /gripper/closed");
 }
 
 void declareInput(CLI::App* app, ReplayOptions* options) {

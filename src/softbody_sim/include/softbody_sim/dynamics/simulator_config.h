@@ -28,7 +28,6 @@ struct SimulatorConfig {
   std::string simd = "auto";       ///< vector instructions: auto (the widest available), sse4, avx2 or avx512
   bool normalized_mass = false;    ///< the mass is 1 kg for every density (Kang et al. 2022, section 5.1)
   double target_stiffness = 10.0;  ///< of a target of weight 1, in units of E * mean edge length
-  double target_accuracy_m = 0.001;  ///< standard deviation of a target of weight 1; weighs it against pins
   double load_fade_s = 0.1;  ///< time in which what is known of loads falls to 1/e; 0: they are not estimated
   double memory_s = 0.5;     ///< time over which measurements of a body at rest are averaged; 0: they are not
   double max_time_step_s = 0.1;  ///< longer gaps between frames are simulated as a step of this length

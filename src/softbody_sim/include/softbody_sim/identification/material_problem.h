@@ -41,8 +41,7 @@ struct FreeProperties {
 struct MaterialProblem {
   TetTopology topology;
   Material prior;             ///< start of the search; what is not free stays
-  SimulatorConfig simulator;  ///< gravity, elasticity, smoothing and contact; a target of weight 1 has the
-                              ///< standard deviation target_accuracy_m
+  SimulatorConfig simulator;  ///< gravity, elasticity, smoothing and contact
   FreeProperties free;
   /// Standard deviation of the mass, relative; infinite: the mass is not known.
   double mass_std = std::numeric_limits<double>::infinity();

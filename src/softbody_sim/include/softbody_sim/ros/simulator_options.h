@@ -22,7 +22,7 @@ struct SimulatorOptions {
   MaterialParameters material;
   double free_run_rate_hz = 30.0;  ///< 0: no steps without targets
   double stall_timeout_s = 1.0;    ///< time without targets after which the simulation goes on by itself
-  SurroundingsParameters surroundings;
+  SurroundingsConfig surroundings;
   std::string wrench_frame;  ///< of the net external wrench; empty: the frame of the targets
 };
 

@@ -12,12 +12,11 @@ namespace softbody {
 
 /// The tf frame that a pin or an obstacle follows. Before tf knows the frame it has no pose. When tf has no
 /// new pose, it stays at its last one: what a silent robot holds most likely stands still, too. Either state
-/// is a fault once it lasts longer than a timeout.
+/// is a fault once it lasts longer than a second.
 class FollowedFrame {
  public:
   /// @param owner what follows, for log messages, like "pin 'grip'". @param frame empty: that of the targets.
-  FollowedFrame(std::string owner, std::string frame, double timeout_s)
-      : owner_(std::move(owner)), frame_(std::move(frame)), timeout_s_(timeout_s) {}
+  FollowedFrame(std::string owner, std::string frame) : owner_(std::move(owner)), frame_(std::move(frame)) {}
 
   /// Looks the pose up at a stamp.
   void update(const FrameLookup& lookup, Nanoseconds stamp, LogLines* log);
@@ -35,7 +34,6 @@ class FollowedFrame {
   void report(double silence_s, LogLines* log);
 
   std::string owner_, frame_;
-  double timeout_s_;
   std::optional<Eigen::Isometry3d> pose_;
   std::optional<Nanoseconds> seen_;  ///< stamp of the last pose, or of the first time that it was missing
   LastingFault fault_;

@@ -16,7 +16,6 @@
 #include "softbody_sim/surroundings/lasting_fault.h"
 #include "softbody_sim/surroundings/named_surroundings.h"
 #include "softbody_sim/surroundings/pinned_vertices.h"
-#include "softbody_sim/surroundings/surroundings_config.h"
 
 namespace softbody {
 
@@ -27,9 +26,10 @@ class SurroundingsFollower {
   /// Name of a pin or obstacle, and what is wrong with it in a sentence.
   using Faults = std::vector<std::pair<std::string, std::string>>;
 
-  /// @param surface of the body, which pins are meant about.
-  explicit SurroundingsFollower(const PinOptions& options, BodySurface surface = {})
-      : options_(options), surface_(std::make_shared<BodySurface>(std::move(surface))) {}
+  /// @param pin_accuracy_m standard deviation of a pin's position; 0: exact. @param surface of the body,
+  /// which pins are meant about.
+  explicit SurroundingsFollower(double pin_accuracy_m, BodySurface surface = {})
+      : pin_accuracy_m_(pin_accuracy_m), surface_(std::make_shared<BodySurface>(std::move(surface))) {}
 
   /// Holds the vertices of a region from the next surroundingsAt() on, in place of a region of the same name.
   /// @param volume the body's tets at present. @return number of their vertices that are held.
@@ -88,7 +88,7 @@ class SurroundingsFollower {
   /// The surface in the body's tets at present, for plans.
   std::shared_ptr<const BodySurface> surfaceIn(const TetTopology& volume);
 
-  double pinAccuracy_m() const { return options_.accuracy_m; }
+  double pinAccuracy_m() const { return pin_accuracy_m_; }
   Faults faults() const;
   /// What is to be logged since the last call.
   LogLines takeLog() { return std::exchange(log_, {}); }
@@ -106,7 +106,6 @@ class SurroundingsFollower {
 
   void requireFree(const std::string& pin);
   std::size_t insert(PinnedVertices held);
-  FollowedFrame frameOf(const ObstacleDescription& description) const;
   PlacedObstacle* find(const std::string& obstacle);
   void placeObstacles(Nanoseconds stamp, const FrameLookup& lookup);
   void placePins(Nanoseconds stamp, const FrameLookup& lookup, const Points& vertices, Nanoseconds step);
@@ -115,7 +114,7 @@ class SurroundingsFollower {
   void addObstacles(const Reactions& reactions, std::vector<NamedReaction>* named) const;
   void addPins(const Reactions& reactions, std::vector<NamedReaction>* named) const;
 
-  PinOptions options_;
+  double pin_accuracy_m_;
   std::shared_ptr<const BodySurface> surface_;  ///< in the tets of the last edit while there are pins
   std::vector<PlacedObstacle> obstacles_;
   bool obstacles_changed_ = false;  ///< since the last surroundingsAt()

@@ -76,9 +76,8 @@ ConstrainedStep makeStep(const TetTopology& topology, const TetMaterials& materi
   }
   return {topology,
           std::move(contact),
-          {target_stiffness, config.target_accuracy_m,
-           kPinStiffness * materials.largest_youngs_modulus_pa * edge_length, config.tolerance,
-           1e-3 * edge_length, kPenetration * edge_length, kNoticeableMove * edge_length},
+          {target_stiffness, kPinStiffness * materials.largest_youngs_modulus_pa * edge_length,
+           config.tolerance, 1e-3 * edge_length, kPenetration * edge_length, kNoticeableMove * edge_length},
           solver};
 }
 
@@ -94,8 +93,7 @@ BodyModel::BodyModel(TetTopology topology_in, const Material& material, const Si
       solver(makeSolver(topology, materials.elastic, config)),
       constrained_step(makeStep(topology, materials, config, edge_length, target_stiffness, solver.get())),
       vertex_confidence(topology.rest_vertices, topology.tets),
-      load_estimator(topology, materials, masses,
-                     {config.load_fade_s, target_stiffness, config.target_accuracy_m}),
+      load_estimator(topology, materials, masses, {config.load_fade_s, target_stiffness}),
       shape_memory(topology.tets, config.memory_s),
       occluded_piece_damping(topology),
       edge_length_(edge_length) {}

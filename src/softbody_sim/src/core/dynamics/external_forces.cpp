@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <iterator>
 
-namespace softbody {
+#include "softbody_common/target_limits.h"
 
+namespace softbody {
 namespace {
 
 Points knownLoads(const Surroundings& surroundings, const SimulatorConfig& config, const BodyModel& model) {
@@ -32,7 +33,7 @@ ForceEstimate externalForces(const std::vector<Target>& targets, const Surroundi
   std::copy_if(targets.begin(), targets.end(), std::back_inserter(measuring),
                [](const Target& target) { return target.kind != TargetKind::kPrior; });
   TargetEnergy measured, contacts;
-  const double variance = config.target_accuracy_m * config.target_accuracy_m;
+  const double variance = kTargetAccuracy_m * kTargetAccuracy_m;
   measured.set(measuring, model->topology.tets, 1.0 / variance);
   model->constrained_step.setContactSprings(body.contact.contacts, &contacts);
   std::vector<double> pin_stiffness;

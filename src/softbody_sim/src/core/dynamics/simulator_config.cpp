@@ -44,8 +44,6 @@ void addSolver(Table* table) {
 void addEstimate(Table* table) {
   table->number("target_stiffness", &Config::target_stiffness, {1e-6, 1e7 / kLargestTargetWeight}, "E × edge",
                 "stiffness of a target of weight 1; with single_precision at most 100", Change::kLive);
-  table->number("target_accuracy_m", &Config::target_accuracy_m, {1e-6, 1.0}, "m",
-                "standard deviation of a target of weight 1; weighs targets against pins");
   table->number("load_fade_s", &Config::load_fade_s, {0.0, 1e3}, "s",
                 "time in which what is known of unknown loads falls to 1/e; 0: neither loads nor standard "
                 "deviations are estimated",

@@ -7,6 +7,7 @@
 
 #include "estimation/deformation_modes.h"
 #include "estimation/load_field.h"
+#include "softbody_common/protocol/target_limits.h"
 #include "softbody_common/geometry/tet_geometry.h"
 
 namespace softbody {
@@ -46,7 +47,7 @@ LoadEstimator::LoadEstimator(const TetTopology& topology, const TetMaterials& ma
       pieces_(verticesOfPieces(topology.tets, masses.size())),
       piece_of_vertex_(static_cast<std::size_t>(masses.size())),
       place_in_piece_(piece_of_vertex_.size()),
-      noise_(options.target_stiffness * options.target_accuracy_m * options.target_accuracy_m) {
+      noise_(options.target_stiffness * kTargetAccuracy_m * kTargetAccuracy_m) {
   for (std::size_t piece = 0; piece < pieces_.size(); ++piece) {
     int place = 0;
     for (int v : pieces_[piece]) {

@@ -34,9 +34,8 @@ namespace softbody {
 class LoadEstimator {
  public:
   struct Options {
-    double fade_s = 0.0;             ///< time in which what is known of loads falls to 1/e; above 0
-    double target_stiffness = 0.0;   ///< of a target of weight 1 [N/m]
-    double target_accuracy_m = 0.0;  ///< its standard deviation
+    double fade_s = 0.0;            ///< time in which what is known of loads falls to 1/e; above 0
+    double target_stiffness = 0.0;  ///< of a target of weight 1 [N/m]
   };
 
   /// @param topology, @param materials outlive this. @param masses lumped, #V [kg].

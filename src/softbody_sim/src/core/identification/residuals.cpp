@@ -3,11 +3,12 @@
 #include <cmath>
 
 #include "softbody_common/geometry/rigid_fit.h"
+#include "softbody_common/protocol/target_limits.h"
 #include "softbody_common/geometry/tet_geometry.h"
 
 namespace softbody {
 
-Residuals::Residuals(const MaterialProblem& problem) : accuracy_m_(problem.simulator.target_accuracy_m) {
+Residuals::Residuals(const MaterialProblem& problem) {
   std::vector<ResidualPlace> of_wrenches;
   int image = 0;
   for (const ShapeObservation& observation : problem.observations) {
@@ -37,7 +38,7 @@ Eigen::VectorXd Residuals::whitened(const Points& places, const Eigen::VectorXd&
   for (std::size_t k = 0; k < targets_.size(); ++k) {
     const Target& target = *targets_[k];
     const Eigen::Vector3d difference =
-        places.row(static_cast<Eigen::Index>(k)) * std::sqrt(target.weight) / accuracy_m_;
+        places.row(static_cast<Eigen::Index>(k)) * std::sqrt(target.weight) / kTargetAccuracy_m;
     if (target.normal.isZero(0.0)) {
       rows.segment<3>(row) = difference;
       row += 3;

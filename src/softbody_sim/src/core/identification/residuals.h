@@ -40,7 +40,6 @@ class Residuals {
 
   std::vector<const Target*> targets_;
   std::vector<const MeasuredWrench*> wrenches_;
-  double accuracy_m_;
   std::vector<ResidualPlace> places_;
 };
 

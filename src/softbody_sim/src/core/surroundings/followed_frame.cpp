@@ -6,6 +6,13 @@
 
 namespace softbody {
 
+namespace {
+
+/// Robots send their frames ten times a second or more often.
+constexpr double kTimeout_s = 1.0;
+
+}  // namespace
+
 void FollowedFrame::update(const FrameLookup& lookup, Nanoseconds stamp, LogLines* log) {
   if (const auto found = findFrame(lookup, frame_, stamp)) {
     pose_ = found->pose;
@@ -16,13 +23,13 @@ void FollowedFrame::update(const FrameLookup& lookup, Nanoseconds stamp, LogLine
 }
 
 void FollowedFrame::report(double silence_s, LogLines* log) {
-  if (silence_s <= timeout_s_ && pose_)
+  if (silence_s <= kTimeout_s && pose_)
     fault_.end(fmt::format("tf gives the pose of frame '{}' again: {} follows it", frame_, owner_), log);
-  else if (silence_s > timeout_s_ && pose_)
+  else if (silence_s > kTimeout_s && pose_)
     fault_.begin(fmt::format("tf has no new pose of frame '{}' for {:.1f} s: {} stays at its last pose",
                              frame_, silence_s, owner_),
                  log);
-  else if (silence_s > timeout_s_)
+  else if (silence_s > kTimeout_s)
     reportUnknown(log);
 }
 

@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
-#include "constraints/pin_conflict.h"
 #include "softbody_common/geometry/rigid_fit.h"
+#include "softbody_common/protocol/target_limits.h"
+#include "constraints/pin_conflict.h"
 
 namespace softbody {
 namespace {
@@ -31,11 +33,11 @@ Wrench inFrame(const Eigen::Isometry3d& frame_pose, const Wrench& about_origin) 
           to_frame * (about_origin.torque - frame_pose.translation().cross(about_origin.force))};
 }
 
-}  // namespace
-
-FollowedFrame SurroundingsFollower::frameOf(const ObstacleDescription& description) const {
-  return {fmt::format("obstacle '{}'", description.name), description.frame, options_.frame_timeout_s};
+FollowedFrame frameOf(const ObstacleDescription& description) {
+  return {fmt::format("obstacle '{}'", description.name), description.frame};
 }
+
+}  // namespace
 
 SurroundingsFollower::PlacedObstacle* SurroundingsFollower::find(const std::string& obstacle) {
   const auto found = std::find_if(obstacles_.begin(), obstacles_.end(), [&](const PlacedObstacle& placed) {
@@ -141,7 +143,7 @@ void SurroundingsFollower::requireFree(const std::string& pin) {
 std::size_t SurroundingsFollower::insert(PinnedVertices held) {
   const PinRegion region = held.region();
   const std::size_t count = held.vertexCount();
-  FollowedFrame frame(fmt::format("pin '{}'", region.name), region.frame, options_.frame_timeout_s);
+  FollowedFrame frame(fmt::format("pin '{}'", region.name), region.frame);
   pins_.insert_or_assign(region.name, HeldPin{std::move(held), std::move(frame), {}});
   return count;
 }
@@ -169,7 +171,7 @@ void SurroundingsFollower::updatePins(const TetTopology& volume, const Points& v
 }
 
 void SurroundingsFollower::appendPins(const std::string& name, const PinnedVertices& held) {
-  if (held.acts()) held.appendPins(options_.accuracy_m, &surroundings_.all.pins);
+  if (held.acts()) held.appendPins(pin_accuracy_m_, &surroundings_.all.pins);
   surroundings_.pins.resize(surroundings_.all.pins.size(), name);
 }
 
@@ -224,15 +226,17 @@ void SurroundingsFollower::findConflicts(const std::vector<Target>& targets, con
   }
 }
 
-/// A conflict ends at half the size at which it begins, so that noise does not end it.
+/// A pin and the camera are in conflict from three standard deviations of their difference on. The conflict
+/// ends at half the size at which it begins, so that noise does not end it.
 void SurroundingsFollower::judge(double conflict_m, HeldPin* pin) {
   const std::string& name = pin->held.region().name;
-  if (conflict_m > options_.conflict_m)
+  const double limit_m = 3.0 * std::hypot(pin_accuracy_m_, kTargetAccuracy_m);
+  if (conflict_m > limit_m)
     pin->conflict.begin(fmt::format("pin '{}' and the camera disagree by {:.1f} mm: the body is held between "
                                     "them; check the frame's calibration, or whether the pin slips",
                                     name, 1e3 * conflict_m),
                         &log_);
-  else if (conflict_m < 0.5 * options_.conflict_m)
+  else if (conflict_m < 0.5 * limit_m)
     pin->conflict.end(fmt::format("pin '{}' and the camera agree again", name), &log_);
 }
 

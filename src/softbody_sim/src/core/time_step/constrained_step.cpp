@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "softbody_common/target_limits.h"
+
 namespace softbody {
 ConstrainedStep::ConstrainedStep(const TetTopology& topology, ContactForces contact, const Options& options,
                                  StepSolver* solver)
@@ -58,7 +60,7 @@ void ConstrainedStep::setPotential(const Problem& problem) {
 
 /// Stiffnesses are inverse variances, in a unit that the targets give.
 double ConstrainedStep::stiffnessOf(const Pin& pin) const {
-  const double ratio = options_.target_accuracy_m / pin.accuracy_m;
+  const double ratio = kTargetAccuracy_m / pin.accuracy_m;
   return std::min(options_.target_stiffness * ratio * ratio, options_.pin_stiffness);
 }
 

@@ -14,10 +14,9 @@ namespace softbody {
 class ConstrainedStep {
  public:
   struct Options {
-    double target_stiffness = 0.0;   ///< of a target of weight 1 [N/m]
-    double target_accuracy_m = 0.0;  ///< standard deviation of a target of weight 1
-    double pin_stiffness = 0.0;      ///< the largest: far above all other stiffnesses [N/m]
-    double tolerance = 0.0;          ///< as MinimizerOptions
+    double target_stiffness = 0.0;  ///< of a target of weight 1 [N/m]
+    double pin_stiffness = 0.0;     ///< the largest: far above all other stiffnesses [N/m]
+    double tolerance = 0.0;         ///< as MinimizerOptions
     double contact_tolerance_m = 0.0;
     double penetration_tolerance_m = 0.0;
     double noticeable_move_m = 0.0;  ///< of a free body in a step; gives the unit of unbalanced forces

@@ -43,7 +43,7 @@ SimulatorNode::SimulatorNode(const ros::NodeHandle& node, const ros::NodeHandle&
                              const SimulatorOptions& options)
     : SimulatorNode(node, private_node, options,
                     loadSimulatedObject(options.object, fileScope(options.allow_outside)),
-                    surroundingsOf(options.surroundings, options.simulator.target_accuracy_m)) {}
+                    options.surroundings) {}
 
 SimulatorNode::SimulatorNode(ros::NodeHandle node, const ros::NodeHandle& private_node,
                              const SimulatorOptions& options, const SimulatedObject& object,

@@ -23,7 +23,7 @@ std::string obstacleFrame(const std::string& frame, const std::string& name) {
 
 SurroundingsTracker::SurroundingsTracker(const ros::NodeHandle& node, const SurroundingsConfig& config,
                                          BodySurface surface)
-    : node_(node), follower_(config.pins, std::move(surface)) {
+    : node_(node), follower_(config.pin_accuracy_m, std::move(surface)) {
   for (const ObstacleDescription& obstacle : config.obstacles) setObstacle(obstacle);
 }
 
