@@ -70,7 +70,7 @@ TEST_F(GraphConfigTest, KnowsWhatOnlyALiveGraphUses) {
       "camera_ingest: {voxel_size_m: 0.01, silence_timeout_s: 3, color_transport: raw}\n"
       "feature_tracker: {body_frame: b, mask_timeout_s: 0.2, tf_timeout_s: 0.1}\n"
       "pose_marker: {frame: world}\n"
-      "simulator: {object: x.yaml, body_frame: b, free_run_rate_hz: 30, stall_timeout_s: 1}\n"
+      "simulator: {object: x.yaml, body_frame: b, free_run_rate_hz: 30}\n"
       "surface: {object: x.yaml, body_frame: b}\n"
       "tool_tracker: {tool: x.yaml, tool_frame: knife}\n");
   EXPECT_TRUE(warnings_.empty()) << warnings_.front();

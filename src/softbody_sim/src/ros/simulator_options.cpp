@@ -17,9 +17,7 @@ ParameterTable<SimulatorOptions> makeSimulatorNodeTable() {
   table.part(&Options::material, materialParameters());
   table.text("body_frame", &Options::body_frame, "name of the rest frame").initial = ownFrameText("softbody");
   table.number("free_run_rate_hz", &Options::free_run_rate_hz, {0.0, 1000.0}, "Hz",
-               "rate of simulation while no targets come; 0: never");
-  table.number("stall_timeout_s", &Options::stall_timeout_s, {0.0, 60.0}, "s",
-               "time without targets until this simulation starts", Change::kLive);
+               "rate of simulation while no targets come for a second; 0: never");
   table
       .text("wrench_frame", &Options::wrench_frame,
             "frame of tf in which the net [external force](#external-forces) and its torque are given")

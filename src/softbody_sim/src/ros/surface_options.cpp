@@ -11,8 +11,6 @@ ParameterTable<SurfaceLimits> makeLimitsTable() {
   table.group("surface limits");
   table.number("latency_limit_s", &SurfaceLimits::latency_s, {0.0, kLongestLatency_s}, "s",
                "from the image's stamp to the mesh", Change::kLive);
-  table.number("volume_drift_limit", &SurfaceLimits::volume_drift, {0.0, 100.0}, "",
-               "change of the enclosed volume since rest, as a fraction", Change::kLive);
   table.number("deviation_limit_m", &SurfaceLimits::deviation_m, {0.0, 10.0}, "m",
                "mean standard deviation of the vertices", Change::kLive);
   return table;

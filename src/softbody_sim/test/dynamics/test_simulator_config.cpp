@@ -53,7 +53,6 @@ Points afterPulling(Simulator* simulator) {
 TEST(SimulatorConfig, ChangesBetweenStepsAsIfItHadBeenSoFromTheStart) {
   SimulatorConfig soft;
   soft.target_stiffness = 0.01;
-  soft.contact_stiffness = 3.0;
   soft.memory_s = 0.0;
   Simulator changed = placedSponge(SimulatorConfig()), from_start = placedSponge(soft),
             unchanged = placedSponge(SimulatorConfig());

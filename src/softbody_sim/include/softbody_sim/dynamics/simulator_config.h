@@ -26,17 +26,14 @@ struct SimulatorConfig {
   std::optional<double> volume_smoothing;  ///< the same of the volume energy; empty: volumeSmoothing(nu)
   bool single_precision = false;           ///< twice as fast, positions accurate to about 0.1 um
   std::string simd = "auto";       ///< vector instructions: auto (the widest available), sse4, avx2 or avx512
-  bool normalized_mass = false;    ///< the mass is 1 kg for every density (Kang et al. 2022, section 5.1)
   double target_stiffness = 10.0;  ///< of a target of weight 1, in units of E * mean edge length
   double load_fade_s = 0.1;  ///< time in which what is known of loads falls to 1/e; 0: they are not estimated
   double memory_s = 0.5;     ///< time over which measurements of a body at rest are averaged; 0: they are not
   double max_time_step_s = 0.1;  ///< longer gaps between frames are simulated as a step of this length
   /// [m/s^2], in the frame of the targets. Zero: the rest shape already contains the effect of gravity.
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();
-  double contact_stiffness = 10.0;  ///< pressure at a depth of one mean edge length, in units of E
-  bool self_contact = false;        ///< the body touches itself, in steps without targets
-  double self_friction = 0.0;       ///< coefficient of Coulomb friction of the body on itself
-  double contact_spacing = 0.5;     ///< of the contact points on the surface [mean edge lengths]
+  bool self_contact = false;     ///< the body touches itself, in steps without targets
+  double self_friction = 0.0;    ///< coefficient of Coulomb friction of the body on itself
 };
 
 /// Maximum of weight times target_stiffness, in units of E * mean edge length. With stiffer targets, the

@@ -21,7 +21,6 @@ struct SimulatorOptions {
   SimulatorConfig simulator;
   MaterialParameters material;
   double free_run_rate_hz = 30.0;  ///< 0: no steps without targets
-  double stall_timeout_s = 1.0;    ///< time without targets after which the simulation goes on by itself
   SurroundingsConfig surroundings;
   std::string wrench_frame;  ///< of the net external wrench; empty: the frame of the targets
 };

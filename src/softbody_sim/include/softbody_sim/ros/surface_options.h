@@ -15,7 +15,6 @@ constexpr double kLongestLatency_s = 10.0;
 /// Values above which the surface warns.
 struct SurfaceLimits {
   double latency_s = 0.5;     ///< from the image's stamp to the mesh
-  double volume_drift = 0.3;  ///< change of the enclosed volume since rest, as a fraction
   double deviation_m = 0.02;  ///< mean standard deviation of the vertices
 };
 

@@ -10,14 +10,10 @@ ParameterTable<CuttingConfig> makeCuttingTable() {
                "the blade cuts when its edge is this far beyond the front");
   table.number("slit_tolerance_m", &CuttingConfig::slit_tolerance_m, {0.0, 0.1}, "m",
                "a blade within this distance of an earlier cut is in the slit of this cut");
-  table.number("max_gap_s", &CuttingConfig::max_gap_s, {0.0, 60.0}, "s",
-               "a blade that is not seen for longer counts as lifted");
   table.number("tear_strain", &CuttingConfig::tear_strain, {0.0, 100.0}, "share",
                "stretch at which the body tears; 0: never");
   table.number("max_pieces", &CuttingConfig::max_pieces, {1, 100000}, "",
                "a cut that would leave more pieces is refused");
-  table.number("undo_memory_mb", &CuttingConfig::undo_memory_mb, {0.0, 1e5}, "MB",
-               "memory of the meshes that are kept for undo and redo");
   return table;
 }
 

@@ -14,8 +14,7 @@ namespace softbody {
 namespace {
 
 /// A quarter of each tet's mass to each of its vertices [kg].
-Eigen::VectorXd lumpedMasses(const TetTopology& topology, const Eigen::VectorXd& densities,
-                             bool normalized_mass) {
+Eigen::VectorXd lumpedMasses(const TetTopology& topology, const Eigen::VectorXd& densities) {
   const Eigen::VectorXd volumes = tetVolumes(topology.rest_vertices, topology.tets);
   Eigen::VectorXd masses = Eigen::VectorXd::Zero(topology.rest_vertices.rows());
   for (Eigen::Index t = 0; t < topology.tets.rows(); ++t) {
@@ -26,7 +25,7 @@ Eigen::VectorXd lumpedMasses(const TetTopology& topology, const Eigen::VectorXd&
       throw std::invalid_argument(
           fmt::format("vertex {} has no mass: it belongs to no tet; remove it from the mesh", v));
   }
-  return normalized_mass ? masses / masses.sum() : masses;
+  return masses;
 }
 
 std::unique_ptr<StepSolver> makeSolver(const TetTopology& topology, const ElasticMaterials& materials,
@@ -49,6 +48,13 @@ std::unique_ptr<StepSolver> makeSolver(const TetTopology& topology, const Elasti
 /// Largest stiffness of a pin relative to the body. Larger values would lose too many digits to rounding.
 constexpr double kPinStiffness = 1e5;
 
+/// Pressure at a depth of one mean edge length [E]. What is softer sinks in visibly, what is stiffer takes
+/// more rounds of contact.
+constexpr double kContactStiffness = 10.0;
+
+/// Distance of the contact points on the surface [mean edge lengths]: the middle of an edge has one, too.
+constexpr double kContactSpacing = 0.5;
+
 /// Penetration that needs no further round [mean edge lengths]. The next step starts with the lift that ends
 /// it.
 constexpr double kPenetration = 5e-3;
@@ -67,9 +73,9 @@ constexpr double kDeepest = 1.0;
 ConstrainedStep makeStep(const TetTopology& topology, const TetMaterials& materials,
                          const SimulatorConfig& config, double edge_length, double target_stiffness,
                          StepSolver* solver) {
-  ContactForces contact(topology, config.contact_spacing * edge_length,
-                        config.contact_stiffness * materials.mean_youngs_modulus_pa / edge_length,
-                        kReach * edge_length, edge_length / config.contact_stiffness);
+  ContactForces contact(topology, kContactSpacing * edge_length,
+                        kContactStiffness * materials.mean_youngs_modulus_pa / edge_length,
+                        kReach * edge_length, edge_length / kContactStiffness);
   if (config.self_contact) {
     contact.addSelfContact(
         {kReach * edge_length, kReach * edge_length, kDeepest * edge_length, config.self_friction});
@@ -87,7 +93,7 @@ BodyModel::BodyModel(TetTopology topology_in, const Material& material, const Si
                      double edge_length)
     : topology(std::move(topology_in)),
       materials(tetMaterials(topology, material, config.strain_smoothing, config.volume_smoothing)),
-      masses(lumpedMasses(topology, materials.densities, config.normalized_mass)),
+      masses(lumpedMasses(topology, materials.densities)),
       free_motion(topology, masses),
       target_stiffness(config.target_stiffness * materials.mean_youngs_modulus_pa * edge_length),
       solver(makeSolver(topology, materials.elastic, config)),

@@ -23,9 +23,6 @@ void addSolver(Table* table) {
                             "neo_hookean and springs need fem; springs also need both smoothings 0");
   table->number("iterations", &Config::iterations, {1, 1000}, "", "largest number of iterations in a step",
                 Change::kLive);
-  table->number("tolerance", &Config::tolerance, {0.0, 1.0}, "share",
-                "a step has converged when this share of the forces from outside is not balanced",
-                Change::kLive);
   table->number("strain_smoothing", &Config::strain_smoothing, {0.0, 0.95}, "share",
                 "share of the shear energy with averaged strains");
   table->number("volume_smoothing", &Config::volume_smoothing, {0.0, 1.0}, "share", "from Poisson's ratio",
@@ -34,11 +31,6 @@ void addSolver(Table* table) {
                 "number of earlier iterations that L-BFGS uses; 0: plain projective dynamics");
   table->flag("single_precision", &Config::single_precision,
               "faster; positions are then precise to about 0.1 µm");
-  table->choice(
-      "simd", &Config::simd, {"auto", "sse4", "avx2", "avx512"},
-      "vector instructions of the solver; loads and standard deviations use the widest; the results "
-      "are equal except for rounding");
-  table->flag("normalized_mass", &Config::normalized_mass, "the body weighs 1 kg, as in the paper");
 }
 
 void addEstimate(Table* table) {
@@ -52,21 +44,15 @@ void addEstimate(Table* table) {
       "memory_s", &Config::memory_s, {0.0, 1e3}, "s",
       "time over which measurements of a body at rest are averaged; 0: each frame is taken as it is",
       Change::kLive);
-  table->number("max_time_step_s", &Config::max_time_step_s, {1e-3, 10.0}, "s",
-                "largest time step; also used for longer gaps between frames", Change::kLive);
   table->numbers("gravity_m_s2", &Config::gravity, "m/s²", "three numbers",
                  "gravity in the frame of the targets; zero if the rest shape already includes gravity");
 }
 
 void addContact(Table* table) {
-  table->number("contact_stiffness", &Config::contact_stiffness, {1e-3, 1e4}, "E",
-                "pressure at a penetration of one mean edge", Change::kLive);
   table->flag("self_contact", &Config::self_contact,
               "parts of the body cannot enter each other, in steps without targets");
   table->number("self_friction", &Config::self_friction, {0.0, 10.0}, "",
                 "coefficient of Coulomb friction between these parts", Change::kLive);
-  table->number("contact_spacing", &Config::contact_spacing, {0.1, 100.0}, "mean edge",
-                "distance of the contact points on the surface");
 }
 
 Table makeSimulatorTable() {

@@ -174,9 +174,9 @@ void SimulatorNode::restart() {
 
 /// Without images nobody knows whether the hands that deform the body are gone. So the last targets stay.
 void SimulatorNode::onFreeRun() {
+  constexpr double kStall_s = 1.0;  // a camera that is late, or starts again, is back within a second
   const Nanoseconds now = toNanoseconds(ros::Time::now()), silence = now - toNanoseconds(last_.arrival);
-  if (!clock_.judge(now).accepted() || last_.arrival.isZero() || seconds(silence) < options_.stall_timeout_s)
-    return;
+  if (!clock_.judge(now).accepted() || last_.arrival.isZero() || seconds(silence) < kStall_s) return;
   std_msgs::Header header = last_.header;
   header.stamp = toTime(toNanoseconds(header.stamp) + silence);  // keeps the latency of the last image
   try {

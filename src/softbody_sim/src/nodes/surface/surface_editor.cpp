@@ -109,7 +109,8 @@ void SurfaceEditor::finishEdit(const ros::Time& stamp) {
   malloc_trim(0);  // returns the memory of dropped versions
   if (body_->droppedVersions() > 0) {
     ROS_INFO_ONCE(
-        "undo_memory_mb is full: undo of the oldest strokes will take longer, because the body is "
+        "the memory of earlier cuts is full: undo of the oldest strokes will take longer, because the body "
+        "is "
         "cut again");
   }
   on_edit_();

@@ -47,7 +47,7 @@ class CuttableBody {
   const EditHistory& edits() const;
   /// Identifies the uncut body in edits().
   void setBody(std::uint64_t body);
-  /// Number of strokes whose undo or redo has to cut the body again, because undo_memory_mb was full.
+  /// Number of strokes whose undo or redo has to cut the body again, because its memory was full.
   std::size_t droppedVersions() const;
 
   /// Makes the strokes that are in force in a history of the same uncut body, and can undo and redo its
