@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <chrono>
 #include <functional>
 #include <random>
@@ -11,6 +10,7 @@
 #include "bench/peers/held_body.h"
 #include "bench/peers/mass_springs.h"
 #include "fixtures/test_meshes.h"
+#include "softbody_common/statistics/median.h"
 #include "softbody_common/geometry/tet_geometry.h"
 #include "softbody_sim/dynamics/simulator.h"
 
@@ -105,9 +105,8 @@ std::string measured(const std::vector<Points>& truth, const std::vector<std::ve
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count());
     errors.push_back(1e3 * (x - truth[now]).rowwise().norm().mean());
   }
-  std::nth_element(times.begin(), times.begin() + kFrames / 2, times.end());
   const double mean = Eigen::Map<Eigen::VectorXd>(errors.data(), kFrames).mean();
-  return fmt::format(R"({{"mean_mm": {:.6f}, "median_ms": {:.6f}}})", mean, times[kFrames / 2]);
+  return fmt::format(R"({{"mean_mm": {:.6f}, "median_ms": {:.6f}}})", mean, median(&times));
 }
 
 std::string compared(const std::string& name) {

@@ -13,6 +13,7 @@
 #include "bench/bending_targets.h"
 #include "bench/bent_bodies.h"
 #include "cutting/fixtures/cut_bodies.h"
+#include "softbody_common/statistics/median.h"
 #include "softbody_sim/dynamics/simulator.h"
 #include "time_step/projective_dynamics.h"
 
@@ -103,7 +104,6 @@ std::string measured(const TetTopology& body, double solver_ms) {
   });
   std::vector<double> frames;
   while (frame < kFrames) frames.push_back(millisecondsOf(step));
-  std::nth_element(frames.begin(), frames.begin() + frames.size() / 2, frames.end());
   const double memory_mb = usedMemory_mb() - before_mb;
   Cut cut;
   cut.revision = body.revision + 1;
@@ -116,7 +116,7 @@ std::string measured(const TetTopology& body, double solver_ms) {
   });
   return fmt::format(
       R"({{"tets": {}, "solver_ms": {}, "frame_ms": {}, "prepare_ms": {}, "cut_ms": {}, "memory_mb": {}}})",
-      body.tets.rows(), solver_ms, frames[frames.size() / 2], prepare_ms, cut_ms, memory_mb);
+      body.tets.rows(), solver_ms, median(&frames), prepare_ms, cut_ms, memory_mb);
 }
 
 }  // namespace

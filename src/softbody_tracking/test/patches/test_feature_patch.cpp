@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "patches/feature_patch.h"
-#include "statistics/median.h"
+#include "softbody_common/statistics/median.h"
 
 namespace softbody {
 namespace {

@@ -6,14 +6,22 @@
 
 namespace softbody {
 
-/// Standard deviation of normal errors over the median of their absolute values.
-constexpr double kMedianToSigma = 1.4826;
+/// Median of the absolute values of a standard normal distribution.
+constexpr double kMedianPerSigma = 0.6745;
 
-/// The median; of an even number the greater of both in the middle. @param values at least one.
-inline double medianOf(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
+/// Of two middle values the larger; 0 for none. Reorders the values.
+template <typename T>
+T median(std::vector<T>* values) {
+  if (values->empty()) return T{0};
+  const auto middle = values->begin() + static_cast<std::ptrdiff_t>(values->size() / 2);
+  std::nth_element(values->begin(), middle, values->end());
   return *middle;
+}
+
+/// The same of values that stay.
+template <typename T>
+T medianOf(std::vector<T> values) {
+  return median(&values);
 }
 
 }  // namespace softbody

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "softbody_common/statistics/median.h"
 #include "softbody_evaluation/measures/surface_samples.h"
 #include "softbody_sim/surface_mesh/closest_point.h"
 
@@ -139,9 +140,7 @@ double typicalDistance(const Sampled& scanned, const Sampled& truth, const Eigen
   std::vector<double> distances;
   for (const Eigen::Vector3d& place : scanned.places)
     distances.push_back((pose * place - truth.query.closest(pose * place).position).norm());
-  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
-  std::nth_element(distances.begin(), middle, distances.end());
-  return *middle;
+  return median(&distances);
 }
 
 /// Mean of Geman and McClure's cost in both directions, 0..2.

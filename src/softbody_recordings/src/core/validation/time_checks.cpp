@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <set>
 
+#include "softbody_common/statistics/median.h"
 #include "softbody_common/time/timeline.h"
 
 namespace softbody::validation {
@@ -15,13 +16,6 @@ namespace {
 constexpr double kGapInIntervals = 2.5;    // two missing frames, or strong jitter
 constexpr double kRateTolerance = 1e-3;    // because stamps are rounded
 constexpr double kClockTolerance_s = 1.0;  // between header stamp and record time
-
-/// @param values not empty.
-Nanoseconds median(std::vector<Nanoseconds> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// A message in the bag's order, and the distance of its stamp from the last good one.
 struct Place {
@@ -111,7 +105,7 @@ void checkClock(const StreamFacts& stream, Findings* findings) {
   std::vector<Nanoseconds> delays;
   for (std::size_t i = 0; i < stream.stamps.size(); ++i)
     delays.push_back(stream.received[i] - stream.stamps[i]);
-  const double delay = seconds(median(delays));
+  const double delay = seconds(medianOf(delays));
   if (std::abs(delay) <= kClockTolerance_s) return;
   findings->push_back(
       {Severity::kWarning, "clock", stream.topic,
@@ -133,7 +127,7 @@ void checkRate(const StreamFacts& stream, const CheckLimits& limits, Findings* f
   std::set<Nanoseconds> stamps(stream.stamps.begin(), stream.stamps.end());
   const std::vector<Nanoseconds> steps = intervals(stamps);
   if (steps.empty()) return;
-  const double interval = seconds(median(steps)), rate = 1.0 / interval;
+  const double interval = seconds(medianOf(steps)), rate = 1.0 / interval;
   if (rate < (1.0 - kRateTolerance) * limits.slowest_rate_hz) {
     findings->push_back(
         {Severity::kWarning, "rates", stream.topic,
@@ -201,7 +195,7 @@ Findings checkSync(const RecordingFacts& facts, const CheckLimits& limits) {
       {severity, "sync", facts.depth.topic,
        fmt::format("has an image within {:.0f} ms of only {:.0f} % of the colour images (median {:+.1f} ms); "
                    "switch on the driver's synchronisation (enable_sync), or increase sync_tolerance_s",
-                   1e3 * limits.sync_tolerance_s, 100.0 * share, 1e3 * seconds(median(offsets)))}};
+                   1e3 * limits.sync_tolerance_s, 100.0 * share, 1e3 * seconds(medianOf(offsets)))}};
 }
 
 }  // namespace softbody::validation

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "softbody_common/ros/conversions.h"
+#include "softbody_common/statistics/median.h"
 #include "softbody_recordings/ros/input_bag.h"
 #include "softbody_recordings/ros/recorded_images.h"
 #include "softbody_recordings/ros/typed_message.h"
@@ -71,9 +72,7 @@ class DepthSampler {
     if (values_.empty()) return facts;
     facts.valid_share = static_cast<double>(values_.size()) / static_cast<double>(pixels_);
     facts.usable_share = static_cast<double>(usable_) / static_cast<double>(pixels_);
-    const auto middle = values_.begin() + static_cast<std::ptrdiff_t>(values_.size() / 2);
-    std::nth_element(values_.begin(), middle, values_.end());
-    facts.median = *middle;
+    facts.median = median(&values_);
     return facts;
   }
 

@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <stdexcept>
 #include <vector>
 
 #include "softbody_common/geometry/plausibility.h"
+#include "softbody_common/statistics/median.h"
 
 namespace softbody {
 namespace {
@@ -18,9 +18,7 @@ Eigen::RowVector3d middleOf(const Points& vertices) {
   Eigen::RowVector3d middle;
   for (int axis = 0; axis < 3; ++axis) {
     std::vector<double> values(vertices.col(axis).begin(), vertices.col(axis).end());
-    const auto half = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), half, values.end());
-    middle[axis] = *half;
+    middle[axis] = median(&values);
   }
   return middle;
 }

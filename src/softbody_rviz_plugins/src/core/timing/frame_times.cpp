@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "softbody_common/statistics/median.h"
+
 namespace softbody {
 namespace {
 
@@ -62,9 +64,7 @@ std::optional<double> FrameTimes::framePeriod() const {
     }
   }
   if (periods.empty()) return std::nullopt;
-  const auto middle = periods.begin() + static_cast<std::ptrdiff_t>(periods.size() / 2);
-  std::nth_element(periods.begin(), middle, periods.end());
-  return 1e-6 * static_cast<double>(*middle);
+  return 1e-6 * static_cast<double>(median(&periods));
 }
 
 void FrameTimes::clear() { *this = {}; }

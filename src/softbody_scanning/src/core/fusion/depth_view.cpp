@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "fusion/plane_fits.h"
+#include "softbody_common/statistics/median.h"
 
 namespace softbody::scanning {
 namespace {
@@ -48,8 +49,7 @@ double measureInverseDepthNoise(const std::vector<KeyFrame>& frames) {
         if (fits.scatter(row, column) > 0.0f) scatters.push_back(fits.scatter(row, column));
   }
   if (scatters.empty()) throw std::invalid_argument("no key frame has depth");
-  std::nth_element(scatters.begin(), scatters.begin() + scatters.size() / 2, scatters.end());
-  return scatters[scatters.size() / 2];
+  return median(&scatters);
 }
 
 DepthView makeDepthView(const KeyFrame& frame, double inverse_depth_std) {

@@ -1,7 +1,8 @@
 #include "markerless/certainty.h"
 
 #include <Eigen/Dense>
-#include <algorithm>
+
+#include "softbody_common/statistics/median.h"
 
 namespace softbody::scanning {
 namespace {
@@ -16,9 +17,7 @@ double medianDepth(const cv::Mat1f& depth) {
   for (int v = 0; v < depth.rows; v += 8)
     for (int u = 0; u < depth.cols; u += 8)
       if (depth(v, u) > 0.0f) depths.push_back(depth(v, u));
-  if (depths.empty()) return 0.0;
-  std::nth_element(depths.begin(), depths.begin() + depths.size() / 2, depths.end());
-  return depths[depths.size() / 2];
+  return median(&depths);
 }
 
 Eigen::Matrix3d covarianceAt(const PoseCovariance& covariance, double depth_m) {

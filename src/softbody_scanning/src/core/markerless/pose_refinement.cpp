@@ -2,13 +2,13 @@
 
 #include <tbb/parallel_for.h>
 
-#include <algorithm>
 #include <optional>
 
 #include "markerless/certainty.h"
 #include "markerless/pose_graph.h"
 #include "markerless/recognition.h"
 #include "markerless/view_pairs.h"
+#include "softbody_common/statistics/median.h"
 #include "softbody_scanning/fusion/depth_view.h"
 
 namespace softbody::scanning {
@@ -35,8 +35,7 @@ Session prepare(const std::vector<KeyFrame>& frames) {
   });
   std::vector<double> depths;
   for (const KeyFrame& frame : frames) depths.push_back(medianDepth(frame.depth));
-  std::nth_element(depths.begin(), depths.begin() + depths.size() / 2, depths.end());
-  session.depth_m = depths[depths.size() / 2];
+  session.depth_m = median(&depths);
   return session;
 }
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "softbody_common/statistics/median.h"
+
 namespace softbody::scanning {
 namespace {
 
@@ -63,9 +65,8 @@ void addSightings(const TrackedFrame& from, const TrackedFrame& to, double q_std
     sizes.push_back(e.residual.head<2>().norm());
   }
   if (sizes.size() < 8) return;
-  std::nth_element(sizes.begin(), sizes.begin() + sizes.size() / 2, sizes.end());
-  pose->pixel_std =
-      std::clamp(sizes[sizes.size() / 2] / 1.177, kSmallestPixelStd, kLargestPixelStd);  // Rayleigh
+  constexpr double kMedianOfRayleigh = 1.177;
+  pose->pixel_std = std::clamp(median(&sizes) / kMedianOfRayleigh, kSmallestPixelStd, kLargestPixelStd);
 }
 
 void addPlanes(const std::vector<PlanePair>& pairs, double q_std, RelativePose* pose, Normal* normal) {

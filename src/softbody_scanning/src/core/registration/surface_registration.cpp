@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "registration/registration_side.h"
+#include "softbody_common/statistics/median.h"
 
 namespace softbody::scanning {
 namespace {
@@ -136,9 +137,7 @@ double typicalDistance(const RegistrationSide& moving, const RegistrationSide& f
     if (nearest.seen) distances.push_back((pose * sample.position - nearest.position).norm());
   }
   if (distances.empty()) return fixed.diagonal();
-  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
-  std::nth_element(distances.begin(), middle, distances.end());
-  return *middle;
+  return median(&distances);
 }
 
 /// How well two surfaces fit.

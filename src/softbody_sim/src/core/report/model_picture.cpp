@@ -1,7 +1,7 @@
 #include "report/model_picture.h"
 
-#include <algorithm>
 
+#include "softbody_common/statistics/median.h"
 #include "softbody_common/geometry/tet_geometry.h"
 #include "softbody_sim/drawing/mesh_drawing.h"
 
@@ -18,12 +18,10 @@ Triangles farHalf(const TetTopology& volume, const Eigen::Isometry3d& T_camera_m
     for (const int v : tet) sum += volume.rest_vertices.row(v).transpose();
     depths.push_back((T_camera_mesh * (0.25 * sum)).z());
   }
-  std::vector<double> sorted = depths;
-  std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2),
-                   sorted.end());
+  const double middle = medianOf(depths);
   std::vector<Eigen::Index> far;
   for (std::size_t t = 0; t < depths.size(); ++t) {
-    if (depths[t] >= sorted[sorted.size() / 2]) far.push_back(static_cast<Eigen::Index>(t));
+    if (depths[t] >= middle) far.push_back(static_cast<Eigen::Index>(t));
   }
   return boundaryTriangles(Tets(volume.tets(far, Eigen::all)));
 }

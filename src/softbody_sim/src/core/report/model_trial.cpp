@@ -11,6 +11,7 @@
 
 #include "softbody_common/geometry/tet_geometry.h"
 #include "softbody_common/images/rasterizer.h"
+#include "softbody_common/statistics/median.h"
 #include "softbody_sim/cutting/binding/cuttable_body.h"
 #include "softbody_sim/cutting/patch/cut_shapes.h"
 #include "softbody_sim/dynamics/simulator.h"
@@ -31,11 +32,6 @@ double millisecondsSince(Clock::time_point begin) {
   return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
 }
 
-double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
-  return values[values.size() / 2];
-}
-
 double medianOf(const std::function<void()>& work) {
   std::vector<double> times;
   for (int k = 0; k < kMeasuredFrames; ++k) {
@@ -43,7 +39,7 @@ double medianOf(const std::function<void()>& work) {
     work();
     times.push_back(millisecondsSince(begin));
   }
-  return median(times);
+  return median(&times);
 }
 
 /// @return the last state.
@@ -71,7 +67,7 @@ MeshState simulate(const ObjectModel& model, ModelTrial* trial) {
     trial->energy_growth = std::max(trial->energy_growth, simulator.elasticEnergy() / start);
     trial->simulated_s += 1e-9 * static_cast<double>(kStep);
   }
-  trial->cost.simulation_ms = median(times);
+  trial->cost.simulation_ms = median(&times);
   trial->inverted =
       static_cast<int>((tetVolumes(simulator.state().vertices, model.volume.tets).array() <= 0.0).count());
   return simulator.state();

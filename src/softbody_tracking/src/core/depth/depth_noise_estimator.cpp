@@ -5,7 +5,7 @@
 
 #include "depth/depth_associations.h"
 #include "prediction/memory.h"
-#include "statistics/median.h"
+#include "softbody_common/statistics/median.h"
 
 namespace softbody {
 namespace {

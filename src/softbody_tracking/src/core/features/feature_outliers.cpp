@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "features/pixel_grid.h"
-#include "statistics/median.h"
+#include "softbody_common/statistics/median.h"
 
 namespace softbody {
 namespace {

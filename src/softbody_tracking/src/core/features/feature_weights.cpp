@@ -2,7 +2,8 @@
 
 #include <algorithm>
 
-#include "statistics/median.h"
+#include "softbody_common/statistics/median.h"
+
 
 namespace softbody {
 namespace {

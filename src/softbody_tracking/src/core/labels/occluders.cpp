@@ -6,7 +6,7 @@
 
 #include "labels/depth_evidence.h"
 #include "labels/labels.h"
-#include "statistics/median.h"
+#include "softbody_common/statistics/median.h"
 
 namespace softbody {
 namespace {

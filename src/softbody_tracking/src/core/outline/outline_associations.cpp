@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "labels/depth_evidence.h"
-#include "statistics/median.h"
+#include "softbody_common/statistics/median.h"
 
 namespace softbody {
 namespace {

@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "statistics/median.h"
+#include "softbody_common/statistics/median.h"
+
 
 namespace softbody {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "prediction/memory.h"
 #include "prediction/place_deviation.h"
+#include "softbody_common/statistics/median.h"
 #include "softbody_common/time/time.h"
-#include "statistics/median.h"
 
 namespace softbody {
 namespace {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "softbody_common/statistics/median.h"
 #include "softbody_tracking/tool/marker_absence.h"
 
 namespace softbody {
@@ -28,13 +29,6 @@ double mean(const std::vector<double>& values) {
   return values.empty()
              ? 0.0
              : std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-}
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 /// Standard deviation from second differences, which an even motion does not change. For white noise they
@@ -77,7 +71,7 @@ ToolCalibrationReport ToolCalibrationCheck::report() const {
   report.frames = frames_;
   report.seen = static_cast<int>(positions_.size());
   report.reprojection_px = mean(reprojections_px_);
-  report.depth_ratio = median(depth_ratios_);
+  report.depth_ratio = medianOf(depth_ratios_);
   report.noise_m = noise(positions_);
   addVisibilityFault(&report);
   if (report.reprojection_px > kMaxReprojection_px) {

@@ -1,8 +1,8 @@
 #include "cutting/blade/tear_marks.h"
 
-#include <algorithm>
 #include <cmath>
 
+#include "softbody_common/statistics/median.h"
 #include "softbody_common/geometry/tet_geometry.h"
 
 namespace softbody {
@@ -18,7 +18,6 @@ bool holdsMaterial(const Target& target, const TetTopology& volume) {
 
 /// Standard deviation of a target of weight 1, as measured: from the median misfit [m].
 double unitDeviation(const TetTopology& volume, const Points& vertices, const std::vector<Target>& targets) {
-  constexpr double kMedianOfNormal = 0.6745;
   std::vector<double> misfits;
   for (const Target& target : targets) {
     if (!holdsMaterial(target, volume)) continue;
@@ -27,10 +26,7 @@ double unitDeviation(const TetTopology& volume, const Points& vertices, const st
         target.normal.isZero() ? offset.norm() / std::sqrt(3.0) : std::abs(target.normal.dot(offset));
     misfits.push_back(std::sqrt(target.weight) * misfit);
   }
-  if (misfits.empty()) return 0.0;
-  const auto middle = misfits.begin() + static_cast<std::ptrdiff_t>(misfits.size() / 2);
-  std::nth_element(misfits.begin(), middle, misfits.end());
-  return *middle / kMedianOfNormal;
+  return median(&misfits) / kMedianPerSigma;
 }
 
 /// A feature has a target in each direction that it measures.

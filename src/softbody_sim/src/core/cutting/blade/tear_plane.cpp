@@ -6,6 +6,8 @@
 #include <iterator>
 #include <limits>
 
+#include "softbody_common/statistics/median.h"
+
 namespace softbody {
 namespace {
 
@@ -21,9 +23,7 @@ double spacingOf(const std::vector<TearMark>& marks) {
       if (&other != &mark) nearest = std::min(nearest, (other.rest - mark.rest).norm());
     spacings.push_back(nearest);
   }
-  const auto middle = spacings.begin() + static_cast<std::ptrdiff_t>(spacings.size() / 2);
-  std::nth_element(spacings.begin(), middle, spacings.end());
-  return *middle;
+  return median(&spacings);
 }
 
 /// The plane n . (x - zone) + tilts . (u, v) + shift = 0, with unknown tilts and shift.

@@ -6,6 +6,8 @@
 #include <numeric>
 #include <utility>
 
+#include "softbody_common/statistics/median.h"
+
 namespace softbody {
 namespace {
 
@@ -56,10 +58,7 @@ std::optional<SideMotion> motionOf(const std::vector<TearMark>& marks, double si
   for (int fit = 0; fit < kFits; ++fit) {
     result = fitted(own, weights);
     const std::vector<double> distances = distancesFrom(result, own);
-    std::vector<double> sorted = distances;
-    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-    std::nth_element(sorted.begin(), middle, sorted.end());
-    result.median_m = std::max(*middle, kLeast);
+    result.median_m = std::max(medianOf(distances), kLeast);
     double squares = kLeast * kLeast;
     for (std::size_t i = 0; i < own.size(); ++i) {
       squares += distances[i] * distances[i];
