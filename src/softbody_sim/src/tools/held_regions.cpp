@@ -5,19 +5,10 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "softbody_common/geometry/rigid_motion.h"
 #include "softbody_sim/object/vertex_region.h"
 
 namespace softbody {
-namespace {
-
-Eigen::Matrix3d rotation(const Eigen::Vector3d& turn) {
-  const double angle = turn.norm();
-  if (angle == 0.0) return Eigen::Matrix3d::Identity();
-  return Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix();
-}
-
-}  // namespace
-
 HeldRegions::HeldRegions(const std::vector<HeldRegion>& regions, const Points& rest, double pin_accuracy_m) {
   for (const HeldRegion& held : regions) {
     Region region{held, verticesWhere(held.region, rest), {}};
@@ -48,7 +39,7 @@ std::vector<Pin> HeldRegions::pinsAt(double share) const {
     if (mover != moving_.end()) {
       const Region& region = regions_[mover->second];
       pin.position = region.center + share * region.motion.shift +
-                     rotation(share * region.motion.turn) * (pin.position - region.center);
+                     rotationBy(share * region.motion.turn) * (pin.position - region.center);
     }
     pins.push_back(pin);
   }

@@ -4,9 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "measures/corner_weights.h"
+#include "softbody_common/geometry/rigid_motion.h"
 #include "softbody_common/geometry/rigid_fit.h"
 #include "softbody_common/geometry/tet_geometry.h"
+#include "measures/corner_weights.h"
 #include "softbody_sim/surface_mesh/closest_point.h"
 
 namespace softbody::evaluation {
@@ -76,11 +77,7 @@ class SelfFit {
       right_side -= normal.dot(moved - nearest.position) * row;
     }
     const Vector6 step = solvedWhereFixed(normal_matrix, right_side);
-    const Eigen::Vector3d turn = step.head<3>() / size_m_, shift = step.tail<3>();
-    Eigen::Isometry3d update = Eigen::Isometry3d::Identity();
-    if (turn.norm() > 0.0) update.linear() = Eigen::AngleAxisd(turn.norm(), turn.normalized()).matrix();
-    update.translation() = centre + shift - update.linear() * centre;
-    *motion = update * *motion;
+    *motion = rigidMotion(step.head<3>() / size_m_, step.tail<3>(), centre) * *motion;
     return step.norm();
   }
 

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "softbody_common/geometry/rigid_motion.h"
 #include "softbody_common/statistics/median.h"
 #include "softbody_evaluation/measures/surface_samples.h"
 #include "softbody_sim/surface_mesh/closest_point.h"
@@ -127,11 +128,7 @@ double improve(const Sampled& scanned, const Sampled& truth, double scale, Eigen
   // A ball may turn freely: such a turn stays zero.
   normal_matrix.diagonal().array() += 1e-9 * normal_matrix.trace() + 1e-300;
   const Vector6 step = normal_matrix.ldlt().solve(right_side);
-  const Eigen::Vector3d turn = step.head<3>() / size;
-  Eigen::Isometry3d update = Eigen::Isometry3d::Identity();
-  if (turn.norm() > 0.0) update.linear() = Eigen::AngleAxisd(turn.norm(), turn.normalized()).matrix();
-  update.translation() = centre + step.tail<3>() - update.linear() * centre;
-  *pose = update * *pose;
+  *pose = rigidMotion(step.head<3>() / size, step.tail<3>(), centre) * *pose;
   return step.norm();
 }
 

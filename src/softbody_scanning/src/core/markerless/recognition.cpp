@@ -3,6 +3,8 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/features2d.hpp>
 
+#include "softbody_common/geometry/rigid_motion.h"
+
 namespace softbody::scanning {
 namespace {
 
@@ -13,11 +15,7 @@ constexpr float kOff_px = 3.0f;  // of the coarser scales of ORB
 cv::Matx33d matrixOf(const Pinhole& c) { return {c.fx, 0.0, c.cx, 0.0, c.fy, c.cy, 0.0, 0.0, 1.0}; }
 
 Eigen::Isometry3d poseOf(const cv::Vec3d& rotation, const cv::Vec3d& translation) {
-  const Eigen::Vector3d turn(rotation[0], rotation[1], rotation[2]);
-  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
-  if (turn.norm() > 0.0) T.linear() = Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix();
-  T.translation() << translation[0], translation[1], translation[2];
-  return T;
+  return rigidMotion(Eigen::Vector3d(rotation.val), Eigen::Vector3d(translation.val));
 }
 
 }  // namespace

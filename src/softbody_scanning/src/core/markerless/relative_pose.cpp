@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "softbody_common/statistics/median.h"
+#include "softbody_common/statistics/robust.h"
 
 namespace softbody::scanning {
 namespace {
@@ -21,8 +22,6 @@ struct Normal {
   PoseCovariance H = PoseCovariance::Zero();
   Vector6 g = Vector6::Zero();
 };
-
-double cauchy(double squared) { return 1.0 / (1.0 + squared); }
 
 struct Errors {
   Eigen::Vector3d residual;              // pixel and inverse depth
@@ -58,7 +57,7 @@ void addSightings(const TrackedFrame& from, const TrackedFrame& to, double q_std
     const Errors e = errorsOf(from, to, *pose, s, q_std);
     const Eigen::Matrix3d information = e.covariance.inverse();
     const double squared = e.residual.dot(information * e.residual);
-    const double weight = cauchy(squared / 3.0);
+    const double weight = cauchyWeighted(1.0, squared / 3.0);
     normal->H += weight * e.jacobian.transpose() * information * e.jacobian;
     normal->g += weight * e.jacobian.transpose() * information * e.residual;
     if (squared < 3.0 * kFitSigmas * kFitSigmas) ++pose->sightings;
@@ -78,7 +77,7 @@ void addPlanes(const std::vector<PlanePair>& pairs, double q_std, RelativePose* 
     const Eigen::Vector3d n = pose->T_to_from.linear() * pair.plane / p.z();
     Vector6 jacobian;
     jacobian << -n, -pair.point.cross(n);
-    const double weight = cauchy(residual * residual / variance) / variance;
+    const double weight = cauchyWeighted(1.0, residual * residual / variance) / variance;
     normal->H += weight * jacobian * jacobian.transpose();
     normal->g += weight * jacobian * residual;
     if (residual * residual < kFitSigmas * kFitSigmas * variance) ++fit;

@@ -2,27 +2,15 @@
 
 #include <Eigen/Geometry>
 
+#include "softbody_common/geometry/rigid_motion.h"
 #include "softbody_tracking/tool/tool_tracker.h"
 
 namespace softbody::scanning {
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
-inline Eigen::Matrix3d crossMatrix(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d m;
-  m << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
-  return m;
-}
-
 /// p -> R(omega) p + t with (t, omega) [m, rad].
-inline Eigen::Isometry3d smallMotion(const Vector6& x) {
-  const Eigen::Vector3d turn = x.tail<3>();
-  const double angle = turn.norm();
-  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
-  if (angle > 0.0) T.linear() = Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix();
-  T.translation() = x.head<3>();
-  return T;
-}
+inline Eigen::Isometry3d smallMotion(const Vector6& x) { return rigidMotion(x.tail<3>(), x.head<3>()); }
 
 /// smallMotion(x) T with a rotation that is one to the last digit: in a chain of poses, rounding would grow
 /// with each inverse.

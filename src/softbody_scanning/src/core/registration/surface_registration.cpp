@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "registration/registration_side.h"
+#include "softbody_common/geometry/rigid_motion.h"
 #include "softbody_common/statistics/median.h"
 
 namespace softbody::scanning {
@@ -120,11 +121,7 @@ double improve(const RegistrationSide& moving, const RegistrationSide& fixed, do
   // A ball may turn freely: such a turn stays zero.
   sums.matrix.diagonal().array() += 1e-9 * sums.matrix.trace() + 1e-300;
   const Vector6 step = sums.matrix.ldlt().solve(sums.right_side);
-  const Eigen::Vector3d turn = step.head<3>() / size;
-  Eigen::Isometry3d update = Eigen::Isometry3d::Identity();
-  if (turn.norm() > 0.0) update.linear() = Eigen::AngleAxisd(turn.norm(), turn.normalized()).matrix();
-  update.translation() = centre + step.tail<3>() - update.linear() * centre;
-  *pose = update * *pose;
+  *pose = rigidMotion(step.head<3>() / size, step.tail<3>(), centre) * *pose;
   return step.norm();
 }
 

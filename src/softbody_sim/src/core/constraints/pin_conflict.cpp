@@ -4,12 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "softbody_common/geometry/rigid_motion.h"
 #include "softbody_common/geometry/tet_geometry.h"
 
 namespace softbody {
 namespace {
 
-/// A small rigid motion: translation, then rotation times the region's radius, both in metres.
+/// A small rigid motion: turn times the region's radius, then shift, both in metres.
 using Motion = Eigen::Matrix<double, 6, 1>;
 using MotionMatrix = Eigen::Matrix<double, 3, 6>;
 
@@ -25,12 +26,7 @@ struct PinnedRegion {
 
   /// Displacement of a place = matrix * motion.
   MotionMatrix motionAt(const Eigen::Vector3d& place) const {
-    const Eigen::Vector3d arm = (place - center) / radius_m;
-    MotionMatrix matrix;
-    matrix << 1, 0, 0, 0, arm.z(), -arm.y(),  //
-        0, 1, 0, -arm.z(), 0, arm.x(),        //
-        0, 0, 1, arm.y(), -arm.x(), 0;
-    return matrix;
+    return motionJacobian((place - center) / radius_m);
   }
 
   Eigen::Vector3d center = Eigen::Vector3d::Zero();

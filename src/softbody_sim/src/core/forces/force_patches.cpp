@@ -5,18 +5,13 @@
 #include <utility>
 #include <vector>
 
+#include "softbody_common/geometry/rigid_motion.h"
 #include "softbody_common/geometry/tet_geometry.h"
 
 namespace softbody {
 namespace {
 
 using Matrix6 = ForceEstimate::Matrix6;
-
-Eigen::Matrix3d crossMatrix(const Eigen::Vector3d& p) {
-  Eigen::Matrix3d m;
-  m << 0.0, -p.z(), p.y(), p.z(), 0.0, -p.x(), -p.y(), p.x(), 0.0;
-  return m;
-}
 
 /// Numbers of forces whose places are equal or touch.
 std::vector<std::vector<int>> groupsOf(const SparseForces& forces, const SurfacePlaces& places) {

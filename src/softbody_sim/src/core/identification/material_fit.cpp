@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "softbody_common/geometry/rigid_motion.h"
 #include "softbody_common/statistics/median.h"
 
 namespace softbody {
@@ -43,10 +44,7 @@ double sizeOf(const Points& vertices) {
 /// The alignment after a shift and a turn about a point.
 Eigen::Isometry3d moved(const Eigen::Isometry3d& alignment, const Eigen::Matrix<double, 6, 1>& move,
                         const Eigen::Vector3d& center) {
-  const Eigen::Vector3d turn = move.tail<3>();
-  Eigen::Isometry3d motion(Eigen::Translation3d(center + move.head<3>()));
-  if (turn.norm() > 0.0) motion.rotate(Eigen::AngleAxisd(turn.norm(), turn.normalized()));
-  return motion * Eigen::Translation3d(-center) * alignment;
+  return rigidMotion(move.tail<3>(), move.head<3>(), center) * alignment;
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 
 #include "elasticity/rotation.h"
+#include "softbody_common/geometry/rigid_motion.h"
 #include "softbody_common/geometry/tet_geometry.h"
 
 namespace softbody {
@@ -16,12 +17,6 @@ Vector3d spinOf(const Matrix3d& inertia, const Vector3d& momentum) {
   const Eigen::LDLT<Matrix3d> factor(inertia);
   if (!(factor.rcond() > 1e-9)) return Vector3d::Zero();  // as flat as rounding
   return factor.solve(momentum);
-}
-
-Matrix3d rotation(const Vector3d& turn) {
-  const double angle = turn.norm();
-  if (angle == 0.0) return Matrix3d::Identity();
-  return Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix();
 }
 
 }  // namespace
@@ -57,7 +52,7 @@ void FreeMotion::advance(const Points& velocity, double time_s, Points* x) const
       momentum += masses_[v] * arm.cross(Vector3d(velocity.row(v)));
     }
     const Vector3d spin = spinOf(inertiaOf(piece, *x, center), momentum);
-    const Matrix3d R = rotation(time_s * spin);
+    const Matrix3d R = rotationBy(time_s * spin);
     for (const int v : piece) {
       const Vector3d arm = x->row(v).transpose() - center;
       const Vector3d rest = velocity.row(v).transpose() - drift - spin.cross(arm);

@@ -2,20 +2,10 @@
 
 #include <Eigen/Dense>
 
+#include "softbody_common/geometry/rigid_motion.h"
 #include "softbody_common/geometry/tet_geometry.h"
 
 namespace softbody {
-namespace {
-
-/// A small turn about the origin moves a point by turn x point, a shift moves it by itself.
-Eigen::Matrix<double, 3, 6> motionsOf(const Eigen::Vector3d& point) {
-  Eigen::Matrix<double, 3, 6> motions;
-  for (int k = 0; k < 3; ++k) motions.col(k) = Eigen::Vector3d::Unit(k).cross(point);
-  motions.rightCols<3>().setIdentity();
-  return motions;
-}
-
-}  // namespace
 
 template <typename T>
 RigidCorrection<T>::RigidCorrection(const TetTopology& topology)
@@ -39,7 +29,7 @@ void RigidCorrection<T>::linearize(const IncrementalPotential& potential, const 
   setCenters(x);
   for (std::size_t v = 0; v < piece_of_vertex_.size(); ++v) {
     const auto row = static_cast<Eigen::Index>(v);
-    exact_basis_[v] = motionsOf(x.row(row).transpose() - pieces_[piece_of_vertex_[v]].center);
+    exact_basis_[v] = motionJacobian(x.row(row).transpose() - pieces_[piece_of_vertex_[v]].center);
     exact_stiffness_[v] = potential.inertia[row] * exact_basis_[v];
   }
   for (const Coupling& coupling : stiffness_.couplings) couplings_of_vertex_[coupling.vertex] = -1;

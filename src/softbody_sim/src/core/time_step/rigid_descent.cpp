@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 
+#include "softbody_common/geometry/rigid_motion.h"
 #include "softbody_common/geometry/tet_geometry.h"
 
 namespace softbody {
@@ -25,22 +26,6 @@ double gapOf(const TargetEnergy::Spring& spring, const Points& x) {
   return spring.normal.dot(place - spring.position);
 }
 
-Eigen::Isometry3d motionAbout(const Eigen::Vector3d& center, const Eigen::Matrix<double, 6, 1>& motion) {
-  const Eigen::Vector3d turn = motion.head<3>();
-  const double angle = turn.norm();
-  Eigen::Isometry3d result = Eigen::Isometry3d::Identity();
-  if (angle > 0.0) result.linear() = Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix();
-  result.translation() = center + motion.tail<3>() - result.linear() * center;
-  return result;
-}
-
-/// The matrix of v -> a x v.
-Eigen::Matrix3d crossProductWith(const Eigen::Vector3d& a) {
-  Eigen::Matrix3d matrix;
-  matrix << 0.0, -a.z(), a.y(), a.z(), 0.0, -a.x(), -a.y(), a.x(), 0.0;
-  return matrix;
-}
-
 }  // namespace
 
 RigidDescent::RigidDescent(const TetTopology& topology)
@@ -52,7 +37,7 @@ RigidDescent::RigidDescent(const TetTopology& topology)
 
 RigidDescent::Matrix63d RigidDescent::Motion::slopes(const Eigen::Vector3d& point) const {
   Matrix63d result;
-  result << crossProductWith(point - center), Eigen::Matrix3d::Identity();
+  result << crossMatrix(point - center), Eigen::Matrix3d::Identity();
   return result;
 }
 
@@ -78,7 +63,7 @@ void RigidDescent::addVertices(const IncrementalPotential& potential, const Poin
       first_moment += potential.inertia[v] * arm;
       second_moment += potential.inertia[v] * arm * arm.transpose();
     }
-    const Eigen::Matrix3d mixed = crossProductWith(first_moment);
+    const Eigen::Matrix3d mixed = crossMatrix(first_moment);
     motion.curvature << second_moment.trace() * Eigen::Matrix3d::Identity() - second_moment, mixed,
         mixed.transpose(), stiffness * Eigen::Matrix3d::Identity();
   }
@@ -177,8 +162,8 @@ void RigidDescent::move(const IncrementalPotential& potential, const Points& fre
   addSprings(potential.targets, free, *x);
   findSteps();
   for (std::size_t p = 0; p < pieces_.size(); ++p) {
-    const Eigen::Isometry3d T =
-        motionAbout(motions_[p].center, steps_.segment<6>(static_cast<Eigen::Index>(6 * p)));
+    const auto step = steps_.segment<6>(static_cast<Eigen::Index>(6 * p));
+    const Eigen::Isometry3d T = rigidMotion(step.head<3>(), step.tail<3>(), motions_[p].center);
     for (const int v : pieces_[p]) x->row(v) = T * Eigen::Vector3d(x->row(v));
   }
 }

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "softbody_common/geometry/rigid_motion.h"
+
 namespace softbody {
 namespace {
 

@@ -5,6 +5,7 @@
 
 #include "features/pixel_grid.h"
 #include "softbody_common/statistics/median.h"
+#include "softbody_common/statistics/robust.h"
 
 namespace softbody {
 namespace {
@@ -142,7 +143,7 @@ class Motions {
         const int other = neighbors_[n];
         const double ratio = disagreements_[n] / (result.spread + kSmallestSpread);
         const Eigen::Vector3d offset = result.offset(matches_[other].pixel);
-        const Eigen::Vector3d weighted = offset / (1.0 + ratio * ratio);
+        const Eigen::Vector3d weighted = cauchyWeighted(offset, ratio * ratio);
         A += weighted * offset.transpose();
         B += weighted * motions_[other].transpose();
       }

@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "softbody_common/geometry/rigid_motion.h"
 #include "softbody_common/statistics/median.h"
-
+#include "softbody_common/statistics/robust.h"
 
 namespace softbody {
 namespace {
@@ -65,7 +66,7 @@ Eigen::Isometry3d rigidStep(const AssociationRefs& associations, const std::vect
   const double scale = std::max(kSmallestScale, 2.0 * medianResidual(associations));
   for (const Association* a : associations) {
     const double ratio = a->residual() / scale;
-    equations.add(*a, a->weight / (1.0 + ratio * ratio));
+    equations.add(*a, cauchyWeighted(a->weight, ratio * ratio));
   }
   for (const Association& a : held) equations.add(a, a.weight);
   auto& [center, H, g, size] = equations;
@@ -74,12 +75,7 @@ Eigen::Isometry3d rigidStep(const AssociationRefs& associations, const std::vect
       kRegularization * H.bottomRightCorner<3, 3>().trace() / 3.0 + kSmallestStiffness;
   const Vector6d motion = H.ldlt().solve(g);
   if (!motion.allFinite()) return Eigen::Isometry3d::Identity();
-
-  const double angle = motion.head<3>().norm();
-  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
-  if (angle > 0.0) T.linear() = Eigen::AngleAxisd(angle, motion.head<3>() / angle).toRotationMatrix();
-  T.translation() = center + motion.tail<3>() - T.linear() * center;
-  return T;
+  return rigidMotion(motion.head<3>(), motion.tail<3>(), center);
 }
 
 void weighByResidual(double scale, std::vector<Association>* associations) {
@@ -87,7 +83,7 @@ void weighByResidual(double scale, std::vector<Association>* associations) {
   const double length = scale * usual;
   for (Association& association : *associations) {
     const double ratio = association.residual() / length;
-    association.weight /= 1.0 + ratio * ratio;
+    association.weight = cauchyWeighted(association.weight, ratio * ratio);
   }
 }
 

@@ -31,16 +31,6 @@ struct Association {
 using AssociationRefs = std::vector<const Association*>;
 AssociationRefs refsTo(const std::vector<Association>& associations);
 
-/// d(point moved by (rotation, translation)) = J (rotation, translation), about the centre.
-/// @param arm from the centre to the point.
-inline Eigen::Matrix<double, 3, 6> motionJacobian(const Eigen::Vector3d& arm) {
-  Eigen::Matrix<double, 3, 6> J;
-  J << 0.0, arm.z(), -arm.y(), 1.0, 0.0, 0.0,  //
-      -arm.z(), 0.0, arm.x(), 0.0, 1.0, 0.0,   //
-      arm.y(), -arm.x(), 0.0, 0.0, 0.0, 1.0;
-  return J;
-}
-
 /// The small rigid motion from predictions to measurements: one Gauss-Newton step with Cauchy weights
 /// (point-to-plane with a normal, point-to-point without; Chen and Medioni 1992).
 /// @param held further associations with full weight; they do not change the scale of the Cauchy weights.

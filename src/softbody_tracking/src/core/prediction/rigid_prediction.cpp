@@ -17,7 +17,7 @@ Eigen::Vector3d rotationVector(const Eigen::Matrix3d& rotation) {
   return turn.angle() * turn.axis();
 }
 
-Eigen::Quaterniond rotationBy(const Eigen::Vector3d& vector) {
+Eigen::Quaterniond quaternionOf(const Eigen::Vector3d& vector) {
   const double angle = vector.norm();
   return angle > 0.0 ? Eigen::Quaterniond(Eigen::AngleAxisd(angle, vector / angle))
                      : Eigen::Quaterniond::Identity();
@@ -98,7 +98,7 @@ Points RigidPrediction::at(Nanoseconds stamp, const std::vector<MotionShare>& kn
       const Velocity velocity = p < known.size() ? velocities_[p].knownPart(known[p]) : velocities_[p];
       const Eigen::Vector3d center = last_->poses[p] * restCenter(p);
       const Eigen::Isometry3d motion = Eigen::Translation3d(center + ahead_s * velocity.linear) *
-                                       rotationBy(ahead_s * velocity.angular) * Eigen::Translation3d(-center);
+                                       quaternionOf(ahead_s * velocity.angular) * Eigen::Translation3d(-center);
       poses[p] = motion * poses[p];
       for (const int v : pieces_[p]) vertices.row(v) = motion * Eigen::Vector3d(last_->vertices.row(v));
     }

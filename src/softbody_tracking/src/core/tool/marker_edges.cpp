@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <optional>
 
+#include "softbody_common/statistics/robust.h"
+
 namespace softbody {
 namespace {
 
@@ -96,7 +98,7 @@ Eigen::Vector3d fitPolynomial(const Profile& profile, int terms) {
     for (std::size_t i = 0; i < profile.places.size(); ++i) {
       const Eigen::Vector3d powers = Side::powers(profile.places[i]);
       const double distance = (profile.offsets[i] - coefficients.dot(powers)) / kCauchy_px;
-      const double weight = fit == 0 ? 1.0 : 1.0 / (1.0 + distance * distance);
+      const double weight = fit == 0 ? 1.0 : cauchyWeighted(1.0, distance * distance);
       normal += weight * powers * powers.transpose();
       right += weight * profile.offsets[i] * powers;
     }

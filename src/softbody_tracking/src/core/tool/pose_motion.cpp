@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 
+#include "softbody_common/geometry/rigid_motion.h"
 #include "softbody_common/time/time.h"
 
 namespace softbody {
@@ -25,10 +26,8 @@ Vector6 perAxis(double linear, double angular) {
 }  // namespace
 
 Eigen::Isometry3d movedPose(const Eigen::Isometry3d& T, const Vector6& move) {
-  const Eigen::Vector3d turn = move.tail<3>();
-  const double angle = turn.norm();
   Eigen::Isometry3d moved = T;
-  if (angle > 0.0) moved.linear() = Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix() * T.linear();
+  moved.linear() = rotationBy(move.tail<3>()) * T.linear();
   moved.translation() += move.head<3>();
   return moved;
 }

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "softbody_common/geometry/rigid_motion.h"
+
 namespace softbody::virtual_camera {
 namespace {
 
@@ -11,12 +13,6 @@ namespace {
 Eigen::Matrix3d cofactors(const Eigen::Matrix3d& F) {
   Eigen::Matrix3d result;
   result << F.col(1).cross(F.col(2)), F.col(2).cross(F.col(0)), F.col(0).cross(F.col(1));
-  return result;
-}
-
-Eigen::Matrix3d crossMatrix(const Eigen::Vector3d& a) {
-  Eigen::Matrix3d result;
-  result << 0.0, -a.z(), a.y(), a.z(), 0.0, -a.x(), -a.y(), a.x(), 0.0;
   return result;
 }
 

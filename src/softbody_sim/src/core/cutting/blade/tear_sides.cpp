@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "softbody_common/statistics/median.h"
+#include "softbody_common/statistics/robust.h"
 
 namespace softbody {
 namespace {
@@ -62,7 +63,7 @@ std::optional<SideMotion> motionOf(const std::vector<TearMark>& marks, double si
     double squares = kLeast * kLeast;
     for (std::size_t i = 0; i < own.size(); ++i) {
       squares += distances[i] * distances[i];
-      weights[i] = 1.0 / (1.0 + std::pow(distances[i] / (kScale * result.median_m), 2));
+      weights[i] = cauchyWeighted(1.0, std::pow(distances[i] / (kScale * result.median_m), 2));
     }
     // An affine map has 12 numbers, a mark 3.
     result.rms_m = std::sqrt(squares / (static_cast<double>(own.size()) - 4.0));
