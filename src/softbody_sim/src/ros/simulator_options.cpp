@@ -15,7 +15,10 @@ ParameterTable<SimulatorOptions> makeSimulatorNodeTable() {
              "the object YAML may name [files in other folders](../reference.md#files-in-other-folders)");
   table.part(&Options::simulator, simulatorParameters());
   table.part(&Options::material, materialParameters());
-  table.text("body_frame", &Options::body_frame, "name of the rest frame").initial = ownFrameText("softbody");
+  table
+      .text("body_frame", &Options::body_frame,
+            "name of the rest frame; another one if a robot's tf has it already")
+      .initial = ownFrameText("softbody");
   table.number("free_run_rate_hz", &Options::free_run_rate_hz, {0.0, 1000.0}, "Hz",
                "rate of simulation while no targets come for a second; 0: never");
   table

@@ -21,21 +21,28 @@ void addSolver(Table* table) {
   for (const std::string& name : elasticityNames()) elasticities.emplace_back(name, elasticityFromName(name));
   table->choice<Elasticity>("elasticity", &Config::elasticity, elasticities,
                             "neo_hookean and springs need fem; springs also need both smoothings 0");
-  table->number("iterations", &Config::iterations, {1, 1000}, "", "largest number of iterations in a step",
-                Change::kLive);
-  table->number("strain_smoothing", &Config::strain_smoothing, {0.0, 0.95}, "share",
-                "share of the shear energy with averaged strains");
+  table->number(
+      "iterations", &Config::iterations, {1, 1000}, "",
+      "largest number of iterations in a step; more for a nearly incompressible body, fewer for a slow "
+      "computer",
+      Change::kLive);
+  table->number(
+      "strain_smoothing", &Config::strain_smoothing, {0.0, 0.95}, "share",
+      "share of the shear energy with averaged strains; for comparisons: with less, bodies bend too little");
   table->number("volume_smoothing", &Config::volume_smoothing, {0.0, 1.0}, "share", "from Poisson's ratio",
-                "share of the volume energy with averaged strains");
-  table->number("lbfgs_history", &Config::lbfgs_history, {0, 5}, "",
-                "number of earlier iterations that L-BFGS uses; 0: plain projective dynamics");
+                "share of the volume energy with averaged strains; for comparisons, too");
+  table->number(
+      "lbfgs_history", &Config::lbfgs_history, {0, 5}, "",
+      "number of earlier iterations that L-BFGS uses; 0: plain projective dynamics, for comparisons");
   table->flag("single_precision", &Config::single_precision,
               "faster; positions are then precise to about 0.1 µm");
 }
 
 void addEstimate(Table* table) {
-  table->number("target_stiffness", &Config::target_stiffness, {1e-6, 1e7 / kLargestTargetWeight}, "E × edge",
-                "stiffness of a target of weight 1; with single_precision at most 100", Change::kLive);
+  table->number(
+      "target_stiffness", &Config::target_stiffness, {1e-6, 1e7 / kLargestTargetWeight}, "E × edge",
+      "stiffness of a target of weight 1; less for a noisy camera; with single_precision at most 100",
+      Change::kLive);
   table->number("load_fade_s", &Config::load_fade_s, {0.0, 1e3}, "s",
                 "time in which what is known of unknown loads falls to 1/e; 0: neither loads nor standard "
                 "deviations are estimated",
