@@ -10,8 +10,8 @@
 #include "bench/peers/held_body.h"
 #include "bench/peers/mass_springs.h"
 #include "fixtures/test_meshes.h"
-#include "softbody_common/statistics/median.h"
 #include "softbody_common/geometry/tet_geometry.h"
+#include "softbody_common/statistics/median.h"
 #include "softbody_sim/dynamics/simulator.h"
 
 /// Hands bend sponge and doll; several simulators follow the same noisy targets, on the upper side alone.

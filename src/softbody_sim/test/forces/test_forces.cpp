@@ -5,7 +5,7 @@
 
 #include "fixtures/model_files.h"
 #include "fixtures/test_meshes.h"
-#include "softbody_common/target_limits.h"
+#include "softbody_common/protocol/target_limits.h"
 #include "softbody_sim/dynamics/simulator.h"
 
 namespace softbody {

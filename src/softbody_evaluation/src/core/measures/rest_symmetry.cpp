@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "softbody_common/geometry/rigid_motion.h"
-#include "softbody_common/geometry/rigid_fit.h"
-#include "softbody_common/geometry/tet_geometry.h"
 #include "measures/corner_weights.h"
+#include "softbody_common/geometry/rigid_fit.h"
+#include "softbody_common/geometry/rigid_motion.h"
+#include "softbody_common/geometry/tet_geometry.h"
 #include "softbody_sim/surface_mesh/closest_point.h"
 
 namespace softbody::evaluation {

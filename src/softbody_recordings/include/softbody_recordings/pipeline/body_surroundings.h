@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "softbody_sim/dynamics/simulator.h"
+#include "softbody_sim/surroundings/surroundings_config.h"
 #include "softbody_sim/surroundings/surroundings_follower.h"
 
 namespace softbody {

@@ -19,6 +19,9 @@ struct StampedPose {
 using FrameLookup = std::function<std::optional<StampedPose>(const std::string& frame, Nanoseconds stamp)>;
 
 /// The same, where an empty name is the frame of the targets.
-std::optional<StampedPose> findFrame(const FrameLookup& lookup, const std::string& frame, Nanoseconds stamp);
+inline std::optional<StampedPose> findFrame(const FrameLookup& lookup, const std::string& frame,
+                                            Nanoseconds stamp) {
+  return frame.empty() ? StampedPose{Eigen::Isometry3d::Identity(), stamp} : lookup(frame, stamp);
+}
 
 }  // namespace softbody

@@ -17,9 +17,15 @@ using LogLines = std::vector<LogLine>;
 class LastingFault {
  public:
   /// @param sentence the newest description, for diagnostics.
-  void begin(const std::string& sentence, LogLines* log);
+  void begin(const std::string& sentence, LogLines* log) {
+    if (sentence_.empty()) log->push_back({true, sentence});
+    sentence_ = sentence;
+  }
   /// @param line is logged if there was a fault.
-  void end(const std::string& line, LogLines* log);
+  void end(const std::string& line, LogLines* log) {
+    if (!sentence_.empty()) log->push_back({false, line});
+    sentence_.clear();
+  }
 
   /// Empty: no fault.
   const std::string& sentence() const { return sentence_; }

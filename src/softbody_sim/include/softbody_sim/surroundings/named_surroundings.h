@@ -22,6 +22,8 @@ struct NamedReaction {
 };
 
 /// The same wrench about the origin of its frame. @param place its reference point [m].
-Wrench aboutOrigin(const Wrench& wrench, const Eigen::Vector3d& place);
+inline Wrench aboutOrigin(const Wrench& wrench, const Eigen::Vector3d& place) {
+  return {wrench.force, wrench.torque + place.cross(wrench.force)};
+}
 
 }  // namespace softbody

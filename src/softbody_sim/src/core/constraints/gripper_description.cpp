@@ -1,13 +1,14 @@
 #include "softbody_sim/constraints/gripper_description.h"
 
 #include <fmt/format.h>
+#include <yaml-cpp/yaml.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <stdexcept>
 
 #include "softbody_common/files/yaml_map_reader.h"
-#include "softbody_common/topics.h"
+#include "softbody_common/protocol/topics.h"
 
 namespace softbody {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "softbody_common/target_limits.h"
+#include "softbody_common/protocol/target_limits.h"
 
 namespace softbody {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "estimation/deformation_modes.h"
 #include "estimation/load_field.h"
-#include "softbody_common/protocol/target_limits.h"
 #include "softbody_common/geometry/tet_geometry.h"
+#include "softbody_common/protocol/target_limits.h"
 
 namespace softbody {
 namespace {

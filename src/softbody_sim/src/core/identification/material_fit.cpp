@@ -180,7 +180,7 @@ bool MaterialFit::improve(double* damping, double* fall) {
 }
 
 void MaterialFit::run(const std::function<void(double)>& progress) {
-  constexpr int kIterations = 40;
+  constexpr int kIterations = 40;  // a bound: kNegligible ends it
   double damping = 1e-3;
   for (int iteration = 0; iteration < kIterations; ++iteration) {
     progress(static_cast<double>(iteration) / kIterations);

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "softbody_common/geometry/rigid_fit.h"
-#include "softbody_common/protocol/target_limits.h"
 #include "softbody_common/geometry/tet_geometry.h"
+#include "softbody_common/protocol/target_limits.h"
 
 namespace softbody {
 

@@ -1,8 +1,7 @@
 #include "report/model_picture.h"
 
-
-#include "softbody_common/statistics/median.h"
 #include "softbody_common/geometry/tet_geometry.h"
+#include "softbody_common/statistics/median.h"
 #include "softbody_sim/drawing/mesh_drawing.h"
 
 namespace softbody {

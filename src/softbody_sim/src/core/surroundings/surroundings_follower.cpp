@@ -6,9 +6,9 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "constraints/pin_conflict.h"
 #include "softbody_common/geometry/rigid_fit.h"
 #include "softbody_common/protocol/target_limits.h"
-#include "constraints/pin_conflict.h"
 
 namespace softbody {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "softbody_common/target_limits.h"
+#include "softbody_common/protocol/target_limits.h"
 
 namespace softbody {
 ConstrainedStep::ConstrainedStep(const TetTopology& topology, ContactForces contact, const Options& options,

@@ -179,7 +179,7 @@ bool RigidDescent::descend(const IncrementalPotential& potential, const Points& 
 }
 
 void RigidDescent::settle(const IncrementalPotential& potential, const Points& free, Points* x) {
-  constexpr int kMaxSteps = 8;
+  constexpr int kMaxSteps = 8;          // a bound; contacts come and go between them
   constexpr double kNoticeable = 1e-6;  // share of the energy
   gradient_.resize(x->rows(), 3);
   lowest_ = moved_ = *x;

@@ -11,6 +11,7 @@
 
 #include "nodes/frame_poses.h"
 #include "nodes/simulator/reaction_publisher.h"
+#include "softbody_sim/surroundings/surroundings_config.h"
 #include "softbody_sim/surroundings/surroundings_follower.h"
 
 namespace softbody {

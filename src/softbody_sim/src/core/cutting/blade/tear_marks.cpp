@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "softbody_common/statistics/median.h"
 #include "softbody_common/geometry/tet_geometry.h"
+#include "softbody_common/statistics/median.h"
 
 namespace softbody {
 namespace {

@@ -51,7 +51,7 @@ class Separation {
   }
 
  private:
-  static constexpr int kSteps = 20;
+  static constexpr int kSteps = 20;  // of Newton: far more than quadratic convergence takes
   struct Row {
     double height;          ///< over the zone's plane, positive on the mark's own side [m]
     Eigen::Vector3d slope;  ///< of the height by tilts and shift

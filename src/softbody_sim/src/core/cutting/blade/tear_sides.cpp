@@ -48,7 +48,7 @@ std::vector<double> distancesFrom(const SideMotion& motion, const Marks& marks) 
 }
 
 std::optional<SideMotion> motionOf(const std::vector<TearMark>& marks, double side) {
-  constexpr int kFits = 5;
+  constexpr int kFits = 5;                       // the weights follow the fit, and the fit the weights
   constexpr double kScale = 2.0, kLeast = 1e-6;  // of the Cauchy weights, in medians; [m]
   Marks own;
   for (const TearMark& mark : marks)
@@ -85,7 +85,7 @@ std::optional<SideMotions> sideMotions(const std::vector<TearMark>& marks) {
 }
 
 void takeSides(const TearZone& zone, std::vector<TearMark>* marks) {
-  constexpr int kRounds = 3;
+  constexpr int kRounds = 3;  // the sides change the fits, and the fits the sides
   for (int round = 0; round < kRounds; ++round) {
     const auto motions = sideMotions(*marks);
     if (!motions) return;
