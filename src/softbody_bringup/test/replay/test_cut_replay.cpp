@@ -1,15 +1,17 @@
 #include <geometry_msgs/PoseStamped.h>
-#include <gtest/gtest.h>
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
+#include <test_support/gtest.h>
+#include <test_support/scratch_folder.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <map>
 #include <opencv2/imgproc.hpp>
 
+#include "replay/recordings.h"
+#include "softbody_common/files/input_file.h"
 #include "softbody_common/geometry/tet_geometry.h"
 #include "softbody_evaluation/ros/surface_reader.h"
 #include "softbody_recordings/pipeline/pipeline.h"
@@ -17,34 +19,19 @@
 #include "softbody_sim/cutting/patch/cut_shapes.h"
 #include "softbody_tracking/camera/camera_ingest.h"
 #include "softbody_virtual_camera/camera/camera_setup.h"
-#include "softbody_virtual_camera/ros/bag_writer.h"
 
 namespace softbody {
 namespace {
 
 namespace fs = std::filesystem;
 
-std::string bytes(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
-
 /// A knife goes through a sponge before a small virtual camera.
 class CutReplay : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
-    folder_ = fs::temp_directory_path() / ("softbody_cut_replay_" + std::to_string(::getpid()));
-    fs::create_directories(folder_);
-    virtual_camera::CameraSetup setup;
-    setup.scene = "cut";
-    setup.config_folder = CONFIG_DIR;
-    setup.width = 320;
-    setup.height = 240;
-    virtual_camera::VirtualCamera camera = virtual_camera::makeCamera(setup);
     // Up to when the blade is at its lowest, and a moment more.
-    virtual_camera::writeBag(&camera, {folder_ / "cut.bag", 84, 30.0, false}, [](int) {});
+    test::record("cut", folder_ / "cut.bag", 84);
   }
-  static void TearDownTestSuite() { fs::remove_all(folder_); }
 
   /// The recording again, with the true pose of the knife on tf, as a robot sends it.
   static void addToolToTf(const std::string& frame) {
@@ -87,10 +74,8 @@ class CutReplay : public ::testing::Test {
         ->second;
   }
 
-  static fs::path folder_;
+  static inline const test::ScratchFolder folder_;
 };
-
-fs::path CutReplay::folder_;
 
 TEST_F(CutReplay, AToolCutsTheBodyInTwoAndItsJournalDoesItAgain) {
   const std::string knife = CONFIG_DIR "/knife.yaml";
@@ -105,7 +90,7 @@ TEST_F(CutReplay, AToolCutsTheBodyInTwoAndItsJournalDoesItAgain) {
   EXPECT_TRUE(isClosed(by_blade.triangles));
 
   run("second.bag", knife, "");
-  EXPECT_TRUE(bytes(folder_ / "first.bag") == bytes(folder_ / "second.bag"));
+  EXPECT_TRUE(readFile(folder_ / "first.bag") == readFile(folder_ / "second.bag"));
 
   const BodySummary again = run("again.bag", "", "first.bag").bodies.front();
   EXPECT_EQ(again.cuts, first.cuts);
@@ -190,7 +175,7 @@ TEST_F(CutPipeline, ACutThatCannotBeMadeIsAWarning) {
   const FrameOutput output = process(true, {torn, middleCut(7)});
   EXPECT_TRUE(output.cuts.empty());
   ASSERT_EQ(output.warnings.size(), 2u);
-  EXPECT_NE(output.warnings[1].find("revision 7"), std::string::npos) << output.warnings[1];
+  EXPECT_TRUE(says(output.warnings[1], "revision 7"));
   EXPECT_TRUE(output.surface.has_value());
   EXPECT_EQ(process(true, {middleCut(1)}).cuts.size(), 1u);
 }

@@ -1,15 +1,16 @@
-#include <gtest/gtest.h>
 #include <rosbag/view.h>
 #include <softbody_msgs/MeshState.h>
 #include <softbody_msgs/MeshTopology.h>
 #include <std_msgs/String.h>
-#include <unistd.h>
+#include <test_support/gtest.h>
+#include <test_support/scratch_folder.h>
 
 #include <filesystem>
 #include <limits>
 #include <string>
 #include <vector>
 
+#include "replay/recordings.h"
 #include "softbody_recordings/ros/replay.h"
 
 namespace softbody {
@@ -21,9 +22,6 @@ namespace fs = std::filesystem;
 class KnownSurfaces : public testing::Test {
  protected:
   using States = std::vector<softbody_msgs::MeshState>;
-
-  KnownSurfaces() { fs::create_directory(folder_); }
-  ~KnownSurfaces() override { fs::remove_all(folder_); }
 
   std::string recording(const std::string& name, bool with_bad_messages) const {
     const rosbag::Bag in(ROSBAGS_DIR "/bend_small.bag");
@@ -77,15 +75,10 @@ class KnownSurfaces : public testing::Test {
     warnings_.clear();
     replay(
         options, [this](const std::string& warning) { warnings_.push_back(warning); }, [](double) {});
-    const rosbag::Bag result(options.output);
-    States states;
-    for (const rosbag::MessageInstance& m :
-         rosbag::View(result, rosbag::TopicQuery("/softbody/surface/state")))
-      states.push_back(*m.instantiate<softbody_msgs::MeshState>());
-    return states;
+    return test::messagesOf<softbody_msgs::MeshState>(options.output, "/softbody/surface/state");
   }
 
-  const fs::path folder_ = fs::temp_directory_path() / ("softbody_known_" + std::to_string(getpid()));
+  const test::ScratchFolder folder_;
   std::vector<std::string> warnings_;
 };
 
@@ -97,16 +90,12 @@ TEST_F(KnownSurfaces, BadMessagesCostNoFrame) {
   EXPECT_FALSE(known == run(clean, {})) << "the known half is not measured";
   EXPECT_TRUE(known == run(bad, {"/half/surface"}));
   ASSERT_FALSE(warnings_.empty());
-  EXPECT_NE(warnings_.front().find("/half/surface/state"), std::string::npos) << warnings_.front();
+  EXPECT_TRUE(says(warnings_.front(), "/half/surface/state"));
 }
 
 TEST_F(KnownSurfaces, AMissingTopicIsNamed) {
-  try {
-    run(ROSBAGS_DIR "/bend_small.bag", {"/other/surface"});
-    FAIL();
-  } catch (const std::invalid_argument& error) {
-    EXPECT_NE(std::string(error.what()).find("/other/surface/topology"), std::string::npos) << error.what();
-  }
+  EXPECT_TRUE(says(complaint([&] { run(ROSBAGS_DIR "/bend_small.bag", {"/other/surface"}); }),
+                   "/other/surface/topology"));
 }
 
 }  // namespace

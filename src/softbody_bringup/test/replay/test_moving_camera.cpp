@@ -1,7 +1,8 @@
-#include <gtest/gtest.h>
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
 #include <softbody_msgs/TrackingStatus.h>
+#include <test_support/gtest.h>
+#include <test_support/scratch_folder.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include <algorithm>
@@ -9,10 +10,9 @@
 #include <string>
 #include <vector>
 
+#include "replay/recordings.h"
 #include "softbody_evaluation/ros/evaluator.h"
 #include "softbody_recordings/ros/replay.h"
-#include "softbody_virtual_camera/camera/camera_setup.h"
-#include "softbody_virtual_camera/ros/bag_writer.h"
 
 namespace softbody {
 namespace {
@@ -24,22 +24,10 @@ class MovingCamera : public ::testing::Test {
  protected:
   static constexpr int kFrames = 45;
 
-  static void SetUpTestSuite() {
-    folder_ = fs::temp_directory_path() / ("softbody_moving_camera_" + std::to_string(::getpid()));
-    fs::create_directories(folder_);
-    record("still", "moving.bag");
-  }
+  static void SetUpTestSuite() { record("still", "moving.bag"); }
   static void record(const std::string& scene, const std::string& name) {
-    virtual_camera::CameraSetup setup;
-    setup.scene = scene;
-    setup.camera_motion = "orbit";
-    setup.config_folder = CONFIG_DIR;
-    setup.width = 320;
-    setup.height = 240;
-    virtual_camera::VirtualCamera camera = virtual_camera::makeCamera(setup);
-    virtual_camera::writeBag(&camera, {folder_ / name, kFrames, 30.0, false}, [](int) {});
+    test::record(scene, folder_ / name, kFrames, 30.0, "orbit");
   }
-  static void TearDownTestSuite() { fs::remove_all(folder_); }
 
   /// The recording without /tf from frame `first` to before `last`.
   static std::string withoutTf(const std::string& name, int first, int last,
@@ -77,11 +65,10 @@ class MovingCamera : public ::testing::Test {
     return evaluation::evaluate(options);
   }
 
-  static fs::path folder_;
+  static inline const test::ScratchFolder folder_;
   static std::vector<std::string> warnings_;  ///< of the last run
 };
 
-fs::path MovingCamera::folder_;
 std::vector<std::string> MovingCamera::warnings_;
 
 TEST_F(MovingCamera, ABodyAtRestIsAtRestInTheWorld) {
@@ -108,7 +95,7 @@ TEST_F(MovingCamera, FramesWithoutTfAreLeftOutWithTheReason) {
   const BodySummary cut_off = run(withoutTf("end.bag", 20, kFrames), "end_result.bag");
   EXPECT_EQ(cut_off.skipped, kFrames - 20);
   const std::string& reason = cut_off.reasons.at(TrackingState::kDegraded);
-  EXPECT_NE(reason.find("camera_color_optical_frame is in output_frame world"), std::string::npos) << reason;
+  EXPECT_TRUE(says(reason, "camera_color_optical_frame is in output_frame world"));
   const rosbag::Bag bag(folder_ / "end_result.bag");
   EXPECT_EQ(rosbag::View(bag, rosbag::TopicQuery("/softbody/status")).size(), static_cast<unsigned>(kFrames));
 }
@@ -130,12 +117,8 @@ TEST_F(MovingCamera, TfThatNeverComesIsAnError) {
   unusable.transforms[0].header.frame_id = "world";
   unusable.transforms[0].child_frame_id = "camera_color_optical_frame";
   rosbag::Bag(input, rosbag::bagmode::Append).write("/tf_static", ros::Time(1.6e9), unusable);
-  try {
-    run(input, "none_result.bag");
-    FAIL();
-  } catch (const std::runtime_error& error) {
-    EXPECT_NE(std::string(error.what()).find("tf does not say where"), std::string::npos) << error.what();
-  }
+  EXPECT_TRUE(
+      says(complaint<std::runtime_error>([&] { run(input, "none_result.bag"); }), "tf does not say where"));
   EXPECT_FALSE(fs::exists(folder_ / "none_result.bag"));
   const auto said = std::find_if(warnings_.begin(), warnings_.end(), [](const std::string& warning) {
     return warning.find("1 transform of frame 'camera_color_optical_frame' left out") != std::string::npos;

@@ -1,11 +1,9 @@
 #include <geometry_msgs/WrenchStamped.h>
-#include <gtest/gtest.h>
-#include <rosbag/bag.h>
-#include <rosbag/view.h>
 #include <softbody_msgs/MeshState.h>
 #include <softbody_msgs/Targets.h>
 #include <softbody_msgs/TrackingStatus.h>
-#include <unistd.h>
+#include <test_support/gtest.h>
+#include <test_support/scratch_folder.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -13,10 +11,9 @@
 #include <string>
 #include <vector>
 
+#include "replay/recordings.h"
 #include "softbody_evaluation/ros/evaluator.h"
 #include "softbody_recordings/ros/replay.h"
-#include "softbody_virtual_camera/camera/camera_setup.h"
-#include "softbody_virtual_camera/ros/bag_writer.h"
 
 namespace softbody {
 namespace {
@@ -29,24 +26,19 @@ constexpr double kWeight = 0.2 * 0.1 * 0.04 * 30.0 * 9.81;  // of the sponge [N]
 class ReplayedSurroundings : public ::testing::Test {
  protected:
   ReplayedSurroundings() {
-    fs::create_directories(folder_);
     for (const char* mesh : {"sponge.obj", "sponge_cage.obj", "sponge_tets.vtu"})
       fs::copy_file(fs::path(CONFIG_DIR) / mesh, folder_ / mesh);
   }
-  ~ReplayedSurroundings() override { fs::remove_all(folder_); }
 
-  std::string write(const std::string& name, const std::string& text) const {
-    std::ofstream(folder_ / name) << text;
-    return folder_ / name;
-  }
   /// The sponge with pins.
   std::string sponge(const std::string& pins) const {
-    return write("sponge.yaml",
-                 "object:\n  visual_mesh: sponge.obj\n  cage_mesh: sponge_cage.obj\n"
-                 "  tet_mesh: sponge_tets.vtu\n  material: {youngs_modulus_pa: 2.0e4, poisson_ratio: 0.2, "
-                 "density_kg_m3: 30, damping: 0.1}\n"
-                 "  initial_pose: [0.006, -0.005, 0.506, 0.8959, -0.2102, 0.0572, 0.3873]\n  pins: [" +
-                     pins + "]\n");
+    return folder_.write(
+        "sponge.yaml",
+        "object:\n  visual_mesh: sponge.obj\n  cage_mesh: sponge_cage.obj\n"
+        "  tet_mesh: sponge_tets.vtu\n  material: {youngs_modulus_pa: 2.0e4, poisson_ratio: 0.2, "
+        "density_kg_m3: 30, damping: 0.1}\n"
+        "  initial_pose: [0.006, -0.005, 0.506, 0.8959, -0.2102, 0.0572, 0.3873]\n  pins: [" +
+            pins + "]\n");
   }
   BodySummary run(ReplayOptions options) {
     options.output = folder_ / "result.bag";
@@ -57,11 +49,7 @@ class ReplayedSurroundings : public ::testing::Test {
   }
   template <typename Message>
   std::vector<Message> results(const std::string& topic) const {
-    const rosbag::Bag bag(folder_ / "result.bag");
-    std::vector<Message> messages;
-    for (const rosbag::MessageInstance& m : rosbag::View(bag, rosbag::TopicQuery(topic)))
-      messages.push_back(*m.instantiate<Message>());
-    return messages;
+    return test::messagesOf<Message>(folder_ / "result.bag", topic);
   }
   int warningsWith(const std::string& words) const {
     return static_cast<int>(
@@ -69,19 +57,13 @@ class ReplayedSurroundings : public ::testing::Test {
                       [&](const std::string& warning) { return warning.find(words) != std::string::npos; }));
   }
 
-  const fs::path folder_ = fs::temp_directory_path() / ("softbody_surroundings_" + std::to_string(getpid()));
+  const test::ScratchFolder folder_;
   std::vector<std::string> warnings_;
 };
 
 TEST_F(ReplayedSurroundings, AGripperSaysWhereTheHiddenEndIs) {
-  virtual_camera::CameraSetup setup;
-  setup.scene = "grasp";
-  setup.config_folder = CONFIG_DIR;
-  setup.width = 320;
-  setup.height = 240;
-  virtual_camera::VirtualCamera camera = virtual_camera::makeCamera(setup);
   const std::string recording = folder_ / "grasp.bag";
-  virtual_camera::writeBag(&camera, {recording, 48, 15.0, false}, [](int) {});
+  test::record("grasp", recording, 48, 15.0);
   ReplayOptions options;
   options.input = recording;
   options.objects = {CONFIG_DIR "/sponge.yaml"};
@@ -110,7 +92,7 @@ TEST_F(ReplayedSurroundings, PinsCarryTheWeightOfAStillBody) {
   ReplayOptions options;
   options.input = ROSBAGS_DIR "/bend_small.bag";
   options.objects = {sponge("{name: all, min: [-1, -1, -1], max: [1, 1, 1]}")};
-  options.parameters = write("parameters.yaml", "simulator: {gravity_m_s2: [0, 9.81, 0]}\n");
+  options.parameters = folder_.write("parameters.yaml", "simulator: {gravity_m_s2: [0, 9.81, 0]}\n");
   run(options);
   const auto felt = results<geometry_msgs::WrenchStamped>("/softbody/reaction/all");
   ASSERT_GT(felt.size(), 5U);
@@ -157,12 +139,7 @@ TEST_F(ReplayedSurroundings, APinThatHoldsNothingIsRefused) {
   ReplayOptions options;
   options.input = ROSBAGS_DIR "/bend_small.bag";
   options.objects = {sponge("{name: end, min: [2, -1, -1], max: [3, 1, 1]}")};
-  try {
-    run(options);
-    FAIL();
-  } catch (const std::invalid_argument& error) {
-    EXPECT_NE(std::string(error.what()).find("'end' contains nothing"), std::string::npos) << error.what();
-  }
+  EXPECT_TRUE(says(complaint([&] { run(options); }), "'end' contains nothing"));
 }
 
 TEST_F(ReplayedSurroundings, ACutThroughAPinnedRegionIsMade) {

@@ -1,12 +1,12 @@
-#include <gtest/gtest.h>
-#include <rosbag/view.h>
 #include <softbody_msgs/MeshState.h>
-#include <unistd.h>
+#include <test_support/gtest.h>
+#include <test_support/scratch_folder.h>
 
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include "replay/recordings.h"
 #include "softbody_recordings/ros/object_namespaces.h"
 #include "softbody_recordings/ros/replay.h"
 
@@ -18,9 +18,6 @@ const std::string kSponge = CONFIG_DIR "/sponge.yaml", kDoll = CONFIG_DIR "/doll
 
 class SeveralBodies : public testing::Test {
  protected:
-  SeveralBodies() { fs::create_directory(folder_); }
-  ~SeveralBodies() override { fs::remove_all(folder_); }
-
   ReplaySummary run(const std::vector<std::string>& objects, const std::string& output) {
     ReplayOptions options;
     options.input = kRecording;
@@ -31,16 +28,11 @@ class SeveralBodies : public testing::Test {
   }
 
   std::vector<softbody_msgs::MeshState> states(const std::string& bag, const std::string& name_space) const {
-    const rosbag::Bag result(folder_ / bag);
-    std::vector<softbody_msgs::MeshState> found;
-    for (const rosbag::MessageInstance& m :
-         rosbag::View(result, rosbag::TopicQuery(name_space + "/surface/state")))
-      found.push_back(*m.instantiate<softbody_msgs::MeshState>());
-    return found;
+    return test::messagesOf<softbody_msgs::MeshState>(folder_ / bag, name_space + "/surface/state");
   }
 
   static inline const std::string kRecording = ROSBAGS_DIR "/bend_small.bag";
-  const fs::path folder_ = fs::temp_directory_path() / ("softbody_bodies_" + std::to_string(getpid()));
+  const test::ScratchFolder folder_;
   std::vector<std::string> warnings_;
 };
 

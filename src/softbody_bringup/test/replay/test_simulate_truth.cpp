@@ -1,8 +1,8 @@
-#include <gtest/gtest.h>
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
 #include <softbody_msgs/MeshTopology.h>
-#include <unistd.h>
+#include <test_support/gtest.h>
+#include <test_support/scratch_folder.h>
 
 #include <filesystem>
 #include <fstream>
@@ -17,24 +17,13 @@ namespace fs = std::filesystem;
 
 class SimulateTruthTest : public ::testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = fs::temp_directory_path() / ("softbody_simulate_truth_" + std::to_string(::getpid()));
-    fs::create_directories(folder_);
-    options_ = {ROSBAGS_DIR "/bend_small.bag", CONFIG_DIR "/sponge.yaml", folder_ / "result.bag"};
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   std::string failure() const {
-    try {
-      evaluation::simulateTruth(options_, [](double) {});
-    } catch (const std::invalid_argument& error) {
-      return error.what();
-    }
-    return "";
+    return complaint([&] { evaluation::simulateTruth(options_, [](double) {}); });
   }
 
-  fs::path folder_;
-  evaluation::TruthSimulationOptions options_;
+  const test::ScratchFolder folder_;
+  evaluation::TruthSimulationOptions options_{ROSBAGS_DIR "/bend_small.bag", CONFIG_DIR "/sponge.yaml",
+                                              folder_ / "result.bag"};
 };
 
 TEST_F(SimulateTruthTest, PutsTheVisibleVerticesWhereTheyTrulyAre) {
@@ -75,17 +64,15 @@ TEST_F(SimulateTruthTest, SendsTheTopologyAgainAsTheSurfaceDoes) {
 /// More vertices than the truth names, at other places.
 TEST_F(SimulateTruthTest, ALargerMeshThatIsNotTheTruthsIsNamedToo) {
   options_.object = CONFIG_DIR "/doll.yaml";
-  EXPECT_NE(failure().find("doll.yaml is not the mesh of the truth"), std::string::npos);
+  EXPECT_TRUE(says(failure(), "doll.yaml is not the mesh of the truth"));
   EXPECT_FALSE(fs::exists(options_.output));
 }
 
 TEST_F(SimulateTruthTest, NamesAnObjectThatIsNotTheTruths) {
-  const fs::path object = folder_ / "tetrahedron.yaml";
-  std::ofstream(folder_ / "tetrahedron.obj")
-      << "v 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nv 0 0 0.1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
-  std::ofstream(object) << "object: {visual_mesh: tetrahedron.obj}\n";
-  options_.object = object;
-  EXPECT_NE(failure().find("tetrahedron.yaml is not the mesh of the truth"), std::string::npos);
+  folder_.write("tetrahedron.obj",
+                "v 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nv 0 0 0.1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
+  options_.object = folder_.write("tetrahedron.yaml", "object: {visual_mesh: tetrahedron.obj}\n");
+  EXPECT_TRUE(says(failure(), "tetrahedron.yaml is not the mesh of the truth"));
   EXPECT_FALSE(fs::exists(options_.output));
 }
 

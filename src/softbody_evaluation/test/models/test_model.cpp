@@ -1,6 +1,6 @@
 #include "softbody_evaluation/models/model.h"
 
-#include <gtest/gtest.h>
+#include <test_support/gtest.h>
 
 #include <filesystem>
 #include <fstream>
@@ -66,10 +66,9 @@ TEST_F(ModelFiles, AFolderGivesUnitPictureAndWhatWasSeen) {
 }
 
 TEST_F(ModelFiles, BadFilesAreNamed) {
-  EXPECT_NE(complaint("/nowhere/body.obj").find("/nowhere/body.obj: does not exist"), std::string::npos);
-  EXPECT_NE(complaint(write("points.obj", "v 0 0 0\nv 1 0 0\n")).find("no faces"), std::string::npos);
-  EXPECT_NE(complaint(write("point.obj", "v 0 0 0\nv 0 0 0\nv 0 0 0\nf 1 2 3\n")).find("one point"),
-            std::string::npos);
+  EXPECT_TRUE(says(complaint("/nowhere/body.obj"), "/nowhere/body.obj: does not exist"));
+  EXPECT_TRUE(says(complaint(write("points.obj", "v 0 0 0\nv 1 0 0\n")), "no faces"));
+  EXPECT_TRUE(says(complaint(write("point.obj", "v 0 0 0\nv 0 0 0\nv 0 0 0\nf 1 2 3\n")), "one point"));
 }
 
 }  // namespace

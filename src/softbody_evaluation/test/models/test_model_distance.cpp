@@ -1,6 +1,6 @@
 #include "softbody_evaluation/models/model_distance.h"
 
-#include <gtest/gtest.h>
+#include <test_support/gtest.h>
 
 #include <nlohmann/json.hpp>
 #include "fixtures/round_bodies.h"
@@ -47,7 +47,7 @@ TEST(ModelDistance, HalfASurfaceIsHalfComplete) {
   EXPECT_FALSE(report.scanned_m3);
   EXPECT_TRUE(report.true_m3);
   EXPECT_TRUE(toJson(report)["scanned_ml"].is_null());
-  EXPECT_NE(toText(report).find("not closed"), std::string::npos);
+  EXPECT_TRUE(says(toText(report), "not closed"));
 }
 
 TEST(ModelDistance, WhatWasNeverSeenCountsApart) {

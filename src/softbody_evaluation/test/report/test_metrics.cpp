@@ -1,6 +1,6 @@
 #include "report/metrics.h"
 
-#include <gtest/gtest.h>
+#include <test_support/gtest.h>
 
 #include <nlohmann/json.hpp>
 
@@ -27,8 +27,7 @@ TEST(Metrics, AForceThatIsNeverFoundHasNoPlace) {
   Report report = reportWith(0.001);
   report.forces = ForceReport{3, summarize(std::vector<float>{2.0f}), 0.0, {}, 0.0};
   for (const Metric& metric : metrics(report))
-    EXPECT_EQ(metric.name.find("place of the force"), std::string::npos)
-        << metric.name << " " << metric.value;
+    EXPECT_FALSE(says(metric.name, "place of the force")) << " " << metric.value;
 }
 
 TEST(Compare, PutsTheSameMetricsSideBySide) {

@@ -1,6 +1,6 @@
 #include "report/report_folder.h"
 
-#include <gtest/gtest.h>
+#include <test_support/gtest.h>
 
 #include <filesystem>
 #include <fstream>
@@ -18,10 +18,10 @@ TEST(ReportFolder, ThePageHoldsItsPicturesAndReplacesAnEarlierReportAsAWhole) {
   fs::remove_all(folder);
   const Pictures pictures{{"a.png", cv::Mat3b(4, 4, cv::Vec3b(1, 2, 3))}};
   const std::string page = htmlPage({{"a <b>", {}, {}}}, {{"error", "mm", 1.5, {}}}, "x < y & z", pictures);
-  EXPECT_NE(page.find("src=\"data:image/png;base64,iVBORw0KGgo"), std::string::npos);
-  EXPECT_NE(page.find("a &lt;b&gt;"), std::string::npos);
-  EXPECT_NE(page.find("x &lt; y &amp; z"), std::string::npos);
-  EXPECT_EQ(page.find("src=\"a.png"), std::string::npos);
+  EXPECT_TRUE(says(page, "src=\"data:image/png;base64,iVBORw0KGgo"));
+  EXPECT_TRUE(says(page, "a &lt;b&gt;"));
+  EXPECT_TRUE(says(page, "x &lt; y &amp; z"));
+  EXPECT_FALSE(says(page, "src=\"a.png"));
   writeReportFolder(folder, {{"run", 1}}, page, pictures);
   writeReportFolder(folder + "/", {{"run", 2}}, page, {});
   EXPECT_FALSE(fs::exists(folder + "/a.png"));
@@ -78,10 +78,10 @@ TEST(ReportPage, NeedsNoOtherFileAndNoNetwork) {
       EXPECT_EQ(page.compare(at + std::string(attribute).size(), 11, "data:image/"), 0)
           << page.substr(at, 60);
   }
-  EXPECT_EQ(page.find("://"), std::string::npos);
-  EXPECT_NE(page.find("default-src 'none'"), std::string::npos);
+  EXPECT_FALSE(says(page, "://"));
+  EXPECT_TRUE(says(page, "default-src 'none'"));
   EXPECT_LT(page.find("far &lt; away"), page.find("type=range min=0 max=1"));
-  EXPECT_NE(page.find("<td class=wrong>99</td>"), std::string::npos);
+  EXPECT_TRUE(says(page, "<td class=wrong>99</td>"));
 }
 
 TEST(ReportFolder, AFolderOfTheUsersIsNotReplaced) {

@@ -1,6 +1,6 @@
 #include "report/verdict.h"
 
-#include <gtest/gtest.h>
+#include <test_support/gtest.h>
 
 #include "report/metric_meaning.h"
 
@@ -28,8 +28,8 @@ TEST(Verdict, IsTheWorstFindingAndSaysTheWorstFirst) {
   const Verdict wrong = judge(reportWith(0.089, -0.05));
   EXPECT_EQ(wrong.level, Level::kWrong);
   ASSERT_EQ(wrong.findings.size(), 2u);
-  EXPECT_NE(wrong.findings[0].sentence.find("depth residual, p95 is 89 mm"), std::string::npos);
-  EXPECT_NE(wrong.findings[1].sentence.find("volume change, mean is -5 %"), std::string::npos);
+  EXPECT_TRUE(says(wrong.findings[0].sentence, "depth residual, p95 is 89 mm"));
+  EXPECT_TRUE(says(wrong.findings[1].sentence, "volume change, mean is -5 %"));
 }
 
 TEST(Verdict, AResultThatIsNeverTrackedIsWrong) {

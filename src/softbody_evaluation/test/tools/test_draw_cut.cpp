@@ -1,6 +1,6 @@
 #include "softbody_evaluation/tools/draw_cut.h"
 
-#include <gtest/gtest.h>
+#include <test_support/gtest.h>
 
 #include <filesystem>
 #include <string>
@@ -23,7 +23,7 @@ TEST(DrawCut, AResultInAnotherFrameThanTheImagesIsRefused) {
   testing::internal::CaptureStderr();
   EXPECT_EQ(runDrawCut(static_cast<int>(arguments.size()), arguments.data()), 1);
   const std::string errors = testing::internal::GetCapturedStderr();
-  EXPECT_NE(errors.find("the surface is in frame 'world'"), std::string::npos) << errors;
+  EXPECT_TRUE(says(errors, "the surface is in frame 'world'"));
   EXPECT_FALSE(std::filesystem::exists(picture));
 }
 

@@ -1,16 +1,16 @@
-#include <gtest/gtest.h>
 #include <rosbag/view.h>
 #include <sensor_msgs/Image.h>
-#include <unistd.h>
+#include <test_support/gtest.h>
+#include <test_support/scratch_folder.h>
 
 #include <cstring>
-#include <fstream>
 #include <opencv2/imgcodecs.hpp>
 #include <random>
 #include <set>
 #include <sstream>
 
 #include "ros/bags/camera_bag.h"
+#include "softbody_common/files/input_file.h"
 #include "softbody_common/ros/camera_messages.h"
 #include "softbody_common/ros/conversions.h"
 #include "softbody_recordings/image_folder/image_folder.h"
@@ -24,16 +24,11 @@ namespace {
 class ImageFolderTest : public testing::Test {
  protected:
   void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "image_folder_XXXXXX").string();
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    directory_ = name;
     fs::create_directories(directory_ / "color");
     fs::create_directories(directory_ / "depth");
-    write("camera.yaml", "image_width: 8\nimage_height: 6\nK: [10, 0, 4, 0, 11, 3, 0, 0, 1]\n");
+    directory_.write("camera.yaml", "image_width: 8\nimage_height: 6\nK: [10, 0, 4, 0, 11, 3, 0, 0, 1]\n");
   }
-  void TearDown() override { fs::remove_all(directory_); }
 
-  void write(const std::string& name, const std::string& text) { std::ofstream(directory_ / name) << text; }
   cv::Mat3b addColor(const std::string& name) {
     cv::Mat3b image(6, 8);
     cv::randu(image, 0, 255);
@@ -48,22 +43,11 @@ class ImageFolderTest : public testing::Test {
   }
   /// The sentence that reading the folder fails with.
   std::string failure(const fs::path& camera = {}) {
-    try {
-      readImageFolder(directory_, camera, 30.0);
-    } catch (const std::runtime_error& error) {
-      return error.what();
-    }
-    return "";
+    return complaint<std::runtime_error>([&] { readImageFolder(directory_, camera, 30.0); });
   }
 
-  fs::path directory_;
+  const test::ScratchFolder directory_;
 };
-
-std::string bytesOf(const fs::path& file) {
-  std::ostringstream bytes;
-  bytes << std::ifstream(file, std::ios::binary).rdbuf();
-  return bytes.str();
-}
 
 TEST_F(ImageFolderTest, StampsComeFromTheNumbersSoThatMissingFilesAreDroppedFrames) {
   for (const char* number : {"0", "3", "10"}) addColor(std::string("color/frame-") + number + ".color.png");
@@ -91,18 +75,18 @@ TEST_F(ImageFolderTest, PixelsSurviveReadingInEveryDepthUnit) {
 }
 
 TEST_F(ImageFolderTest, FailuresNameTheFile) {
-  EXPECT_NE(failure().find("color: the folder has no image"), std::string::npos);
+  EXPECT_TRUE(says(failure(), "color: the folder has no image"));
   addColor("color/1.png");
   addDepth("depth/1.png");
   EXPECT_EQ(failure(), "");
-  EXPECT_NE(failure(directory_ / "other.yaml").find("other.yaml"), std::string::npos);
+  EXPECT_TRUE(says(failure(directory_ / "other.yaml"), "other.yaml"));
   addColor("color/01.png");
-  EXPECT_NE(failure().find("01.png"), std::string::npos);
+  EXPECT_TRUE(says(failure(), "01.png"));
   fs::remove(directory_ / "color/01.png");
   addColor("color/last.png");
-  EXPECT_NE(failure().find("last.png"), std::string::npos);
+  EXPECT_TRUE(says(failure(), "last.png"));
   fs::remove_all(directory_ / "color");
-  EXPECT_NE(failure().find("color/"), std::string::npos);
+  EXPECT_TRUE(says(failure(), "color/"));
 }
 
 TEST_F(ImageFolderTest, ImagesOfWrongSizeOrTypeAreRefused) {
@@ -111,7 +95,7 @@ TEST_F(ImageFolderTest, ImagesOfWrongSizeOrTypeAreRefused) {
   folder.camera = camera;
   addColor("color/1.png");
   addDepth("depth/1.png");
-  write("color/broken.png", "not an image");
+  directory_.write("color/broken.png", "not an image");
   EXPECT_THROW(readColor(directory_ / "depth/1.png", camera), std::runtime_error);
   EXPECT_THROW(readDepth(directory_ / "color/1.png", folder), std::runtime_error);
   EXPECT_THROW(readColor(directory_ / "color/broken.png", camera), std::runtime_error);
@@ -122,7 +106,7 @@ TEST_F(ImageFolderTest, ImagesOfWrongSizeOrTypeAreRefused) {
 
 TEST_F(ImageFolderTest, CameraFilesAreChecked) {
   const auto refused = [this](const std::string& text) {
-    write("camera.yaml", text);
+    directory_.write("camera.yaml", text);
     EXPECT_THROW(readFolderCamera(directory_ / "camera.yaml"), std::runtime_error) << text;
   };
   const std::string size = "image_width: 8\nimage_height: 6\n", K = "K: [10, 0, 4, 0, 11, 3, 0, 0, 1]\n";
@@ -136,7 +120,7 @@ TEST_F(ImageFolderTest, CameraFilesAreChecked) {
   refused("image_width: -8\nimage_height: 6\n" + K);
   refused(size + K + "depth: {unit: inch}\n");
   refused(size + K + "depth: {scale: 0}\n");
-  write("camera.yaml", size + K + "D: [1, 2, 3, 4, 5, 6, 7, 8]\ndepth: {unit: m}\n");
+  directory_.write("camera.yaml", size + K + "D: [1, 2, 3, 4, 5, 6, 7, 8]\ndepth: {unit: m}\n");
   const FolderCamera camera = readFolderCamera(directory_ / "camera.yaml");
   EXPECT_EQ(camera.camera, (Pinhole{8, 6, 10.0, 11.0, 4.0, 3.0}));
   EXPECT_EQ(camera.distortion_model, "rational_polynomial");
@@ -153,8 +137,8 @@ TEST_F(ImageFolderTest, TumPairsAreOneToOneWithinTheTolerance) {
     color << 1305031102.175304 + k / 30.0 << " rgb/" << k << ".png\n";
     depth << 1305031102.175304 + k / 30.0 + jitter(random) << " depth/" << k << ".png\n";
   }
-  write("rgb.txt", color.str());
-  write("depth.txt", depth.str());
+  directory_.write("rgb.txt", color.str());
+  directory_.write("depth.txt", depth.str());
   const ImageFolder folder = readImageFolder(directory_, "", 30.0);
   ASSERT_EQ(folder.color.size(), folder.depth.size());
   EXPECT_GT(folder.color.size(), 100u);
@@ -167,9 +151,9 @@ TEST_F(ImageFolderTest, TumPairsAreOneToOneWithinTheTolerance) {
     EXPECT_TRUE(i == 0 || folder.color[i].stamp > folder.color[i - 1].stamp);
   }
   fs::remove(directory_ / "camera.yaml");
-  EXPECT_NE(readImageFolder(directory_, "", 30.0).warnings.back().find("517.3"), std::string::npos);
-  write("rgb.txt", "1305031102.175304\n");
-  EXPECT_NE(failure().find("rgb.txt, line 1"), std::string::npos);
+  EXPECT_TRUE(says(readImageFolder(directory_, "", 30.0).warnings.back(), "517.3"));
+  directory_.write("rgb.txt", "1305031102.175304\n");
+  EXPECT_TRUE(says(failure(), "rgb.txt, line 1"));
 }
 
 TEST_F(ImageFolderTest, TheSameImagesGiveTheSameBag) {
@@ -184,7 +168,7 @@ TEST_F(ImageFolderTest, TheSameImagesGiveTheSameBag) {
   };
   write_bag(directory_ / "a.bag");
   write_bag(directory_ / "b.bag");
-  EXPECT_EQ(bytesOf(directory_ / "a.bag"), bytesOf(directory_ / "b.bag"));
+  EXPECT_EQ(readFile(directory_ / "a.bag"), readFile(directory_ / "b.bag"));
 
   rosbag::Bag bag((directory_ / "a.bag").string());
   rosbag::View view(bag, rosbag::TopicQuery("/camera/aligned_depth_to_color/image_raw"));
@@ -196,12 +180,12 @@ TEST_F(ImageFolderTest, TheSameImagesGiveTheSameBag) {
 }
 
 TEST_F(ImageFolderTest, AnUnfinishedBagLeavesTheEarlierFile) {
-  write("out.bag", "earlier");
+  directory_.write("out.bag", "earlier");
   {
     CameraBag bag(directory_ / "out.bag", sensor_msgs::CameraInfo());
     bag.writeOpticalFrame(kFolderStart);
   }
-  EXPECT_EQ(bytesOf(directory_ / "out.bag"), "earlier");
+  EXPECT_EQ(readFile(directory_ / "out.bag"), "earlier");
   const auto is_part = [](const auto& entry) {
     return entry.path().string().find(".part") != std::string::npos;
   };
@@ -209,21 +193,16 @@ TEST_F(ImageFolderTest, AnUnfinishedBagLeavesTheEarlierFile) {
 }
 
 TEST_F(ImageFolderTest, ImagesOutsideOfTheFolderNeedAllowance) {
-  const fs::path other = directory_.string() + "_other";
+  const fs::path other = fs::path(directory_).string() + "_other";
   fs::create_directories(other);
   cv::imwrite((other / "0.png").string(), cv::Mat3b(6, 8));
   cv::imwrite((other / "d.png").string(), cv::Mat1w(6, 8));
   const std::string camera = "image_width: 8\nimage_height: 6\nK: [10, 0, 4, 0, 11, 3, 0, 0, 1]\n";
-  write("camera.yaml", camera);
-  write("rgb.txt", "1.0 ../" + other.filename().string() + "/0.png\n");
-  write("depth.txt", "1.0 " + (other / "d.png").string() + "\n");
-  try {
-    readImageFolder(directory_, "", 30.0);
-    FAIL();
-  } catch (const std::runtime_error& error) {
-    EXPECT_NE(std::string(error.what()).find("0.png is outside of the folder"), std::string::npos)
-        << error.what();
-  }
+  directory_.write("camera.yaml", camera);
+  directory_.write("rgb.txt", "1.0 ../" + other.filename().string() + "/0.png\n");
+  directory_.write("depth.txt", "1.0 " + (other / "d.png").string() + "\n");
+  EXPECT_TRUE(says(complaint<std::runtime_error>([&] { readImageFolder(directory_, "", 30.0); }),
+                   "0.png is outside of the folder"));
   EXPECT_EQ(readImageFolder(directory_, "", 30.0, FileScope::kAnywhere).color.size(), 1u);
   fs::remove(directory_ / "rgb.txt");
   fs::remove_all(directory_ / "color");

@@ -1,8 +1,7 @@
-#include <gtest/gtest.h>
-#include <unistd.h>
+#include <test_support/gtest.h>
+#include <test_support/scratch_folder.h>
 
 #include <filesystem>
-#include <fstream>
 
 #include "softbody_sim/constraints/gripper_description.h"
 
@@ -11,23 +10,16 @@ namespace {
 
 class GripperDescriptionTest : public ::testing::Test {
  protected:
-  void TearDown() override { std::filesystem::remove(path_); }
-
   std::optional<GripperDescription> read(const std::string& file) {
-    std::ofstream(path_) << file;
+    folder_.write("gripper.yaml", file);
     return readGripper(path_, &unknown_);
   }
   std::string refusalOf(const std::string& file) {
-    try {
-      read(file);
-    } catch (const std::invalid_argument& error) {
-      return error.what();
-    }
-    return "";
+    return complaint([&] { read(file); });
   }
 
-  const std::string path_ =
-      std::filesystem::temp_directory_path() / ("softbody_gripper_" + std::to_string(getpid()) + ".yaml");
+  const test::ScratchFolder folder_;
+  const std::string path_ = folder_.file("gripper.yaml");
   std::vector<std::string> unknown_;
 };
 
@@ -74,8 +66,8 @@ TEST_F(GripperDescriptionTest, BadFilesAreRefusedWithFileKeyAndValue) {
   for (const auto& bad : cases) {
     SCOPED_TRACE(bad.file);
     const std::string message = refusalOf(bad.file);
-    EXPECT_NE(message.find(path_), std::string::npos) << message;
-    for (const std::string& word : bad.words) EXPECT_NE(message.find(word), std::string::npos) << message;
+    EXPECT_TRUE(says(message, path_));
+    for (const std::string& word : bad.words) EXPECT_TRUE(says(message, word));
   }
   EXPECT_THROW(readGripper("/nowhere/gripper.yaml", &unknown_), std::invalid_argument);
 }

@@ -14,7 +14,7 @@ TEST(CountedVolume, OfATorusAgreesWithItsTriangles) {
 
 /// Every kind of defect once, on another mesh each. `make meshes` tries all pairs and more meshes.
 TEST(MutatedMeshes, AreRepairedOrRefusedAndWhatIsCalledGoodIsGood) {
-  const test::TemporaryFolder folder;
+  const test::ScratchFolder folder;
   const std::vector<test::SoundMesh> sound = test::simpleMeshes();
   for (std::size_t kind = 0; kind < test::mutationsOf(sound[0], 1).size(); ++kind) {
     const test::MutatedMesh mesh = test::mutationsOf(sound[kind % sound.size()], 1)[kind];

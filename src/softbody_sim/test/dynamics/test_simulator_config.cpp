@@ -1,4 +1,4 @@
-#include <gtest/gtest.h>
+#include <test_support/gtest.h>
 #include <yaml-cpp/yaml.h>
 
 #include "fixtures/test_meshes.h"
@@ -15,13 +15,7 @@ TEST(SimulatorConfig, ReadsItsParametersAndNamesWhatIsOutOfRange) {
   EXPECT_EQ(config.gravity.y(), 9.81);
   EXPECT_TRUE(good.unknown().empty());
   Parameters bad(YAML::Load("{iterations: 0}"), "/simulator/");
-  try {
-    simulatorParameters().read(bad);
-    FAIL();
-  } catch (const std::invalid_argument& error) {
-    EXPECT_NE(std::string(error.what()).find("/simulator/iterations is 0"), std::string::npos)
-        << error.what();
-  }
+  EXPECT_TRUE(says(complaint([&] { simulatorParameters().read(bad); }), "/simulator/iterations is 0"));
 }
 
 TEST(SimulatorConfig, LeavesRoomForTheTrackersHeaviestTargets) {

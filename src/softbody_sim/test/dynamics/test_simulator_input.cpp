@@ -1,16 +1,17 @@
 #include <gtest/gtest.h>
 
-#include "fixtures/test_meshes.h"
-#include "softbody_sim/dynamics/simulator.h"
+#include "fixtures/placed_sponge.h"
 
 namespace softbody {
 namespace {
 
 using testing::kFrame;
 using testing::largestDistance;
+using testing::PlacedSponge;
 using testing::placing;
 using testing::somePose;
 using testing::sponge;
+using testing::targetsOf;
 using testing::vertexTargets;
 
 TEST(Simulator, RefusesUnusableTargetsAndKeepsItsState) {
@@ -52,13 +53,10 @@ TEST(Simulator, RefusesUnusableTargetsAndKeepsItsState) {
 }
 
 TEST(Simulator, RefusesTargetsThatAreNotOfTheBody) {
-  const TetTopology topology = sponge();
-  Simulator simulator(topology, Material(), SimulatorConfig());
-  simulator.step(placing(somePose()), 0);
-  const Points placed = simulator.state().vertices;
-  TargetSet targets;
+  PlacedSponge simulator(somePose());
+  const Points placed = simulator.vertices();
+  TargetSet targets = targetsOf(vertexTargets(simulator.topology(), placed));
   targets.body_pose = somePose();
-  targets.targets = vertexTargets(topology, placed);
   for (const double far : {5.0, 1e4, 1e10, 1e20, 1e300}) {
     TargetSet bad = targets;
     bad.targets[7].position.y() = far;
@@ -75,9 +73,8 @@ TEST(Simulator, RefusesTargetsThatAreNotOfTheBody) {
 /// In whatever way the body was driven away: targets that agree with their body_pose bring it back.
 TEST(Simulator, ABodyThatWasDrivenAwayIsBroughtBack) {
   const TetTopology topology = sponge();
-  TargetSet targets;
+  TargetSet targets = targetsOf(vertexTargets(topology, transformed(topology.rest_vertices, somePose())));
   targets.body_pose = somePose();
-  targets.targets = vertexTargets(topology, transformed(topology.rest_vertices, somePose()));
   for (const double away : {3.0, 1e4, 1e17}) {
     Simulator simulator(topology, Material(), SimulatorConfig());
     EXPECT_FALSE(simulator.hasLeft(targets)) << "not placed";
@@ -120,16 +117,12 @@ TEST(Simulator, TheStiffestTargetsLeaveABodyAtRestWhereItIs) {
 }
 
 TEST(Simulator, AFailedStepChangesNothing) {
-  const TetTopology topology = sponge();
   SimulatorConfig config;
   config.gravity = {0.0, 0.0, -9.81};
-  Simulator failing(topology, Material(), config), untouched(topology, Material(), config);
-  for (Simulator* simulator : {&failing, &untouched}) {
-    simulator->step(placing(somePose()), 0);
-    simulator->step({}, kFrame);
-  }
+  PlacedSponge failing(somePose(), Material(), config), untouched(somePose(), Material(), config);
+  for (Simulator* simulator : {&failing, &untouched}) simulator->step({}, kFrame);
   Surroundings impossible;
-  impossible.loads = Points::Constant(topology.rest_vertices.rows(), 3, 1e308);
+  impossible.loads = Points::Constant(failing.rest().rows(), 3, 1e308);
   EXPECT_THROW(failing.step(placing(Eigen::Isometry3d::Identity()), 2 * kFrame, impossible),
                std::runtime_error);
   for (int frame = 2; frame <= 4; ++frame) {

@@ -1,4 +1,4 @@
-#include <gtest/gtest.h>
+#include <test_support/gtest.h>
 
 #include <Eigen/Dense>
 #include <cmath>
@@ -11,7 +11,6 @@
 namespace softbody {
 namespace {
 
-using test::complaint;
 using testing::boxTopology;
 using testing::kFrame;
 using testing::randomPoints;

@@ -1,4 +1,4 @@
-#include <gtest/gtest.h>
+#include <test_support/gtest.h>
 
 #include <cmath>
 
@@ -65,12 +65,12 @@ TEST(ShapeFit, AScanThatIsTurnedAndNoisyGivesItWithinTwoStandardErrors) {
 TEST(ShapeFit, AScanInAnotherUnitOrPlaceIsRefused) {
   const ScannedBeam beam(0.0);
   const auto complaintOf = [&beam](const Points& points) {
-    return test::complaint([&] { identifyFromShape(beam.problem, beam.visual, points); });
+    return complaint([&] { identifyFromShape(beam.problem, beam.visual, points); });
   };
-  EXPECT_NE(complaintOf(1e3 * beam.measured).find("check the unit"), std::string::npos);
+  EXPECT_TRUE(says(complaintOf(1e3 * beam.measured), "check the unit"));
   const Points away = beam.measured.rowwise() + Eigen::RowVector3d(1.0, 0.0, 0.0);
-  EXPECT_NE(complaintOf(away).find("away from the object"), std::string::npos);
-  EXPECT_NE(complaintOf(beam.measured.topRows(10)).find("10 points"), std::string::npos);
+  EXPECT_TRUE(says(complaintOf(away), "away from the object"));
+  EXPECT_TRUE(says(complaintOf(beam.measured.topRows(10)), "10 points"));
 }
 
 TEST(FitPicture, ShowsBodyAndResiduals) {

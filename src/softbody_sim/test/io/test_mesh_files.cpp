@@ -1,4 +1,4 @@
-#include <gtest/gtest.h>
+#include <test_support/gtest.h>
 
 #include <cstring>
 #include <random>
@@ -12,13 +12,12 @@
 namespace softbody {
 namespace {
 
-using test::complaint;
-using test::TemporaryFolder;
+using test::ScratchFolder;
 
 constexpr const char* kQuadObj = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf -4 -3 -2 -1\n";
 
 TEST(ReadObj, TriangulatesPolygonsAndResolvesNegativeIndices) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   Warnings warnings;
   const SurfaceFile quad = readSurfaceFile(folder.write("quad.obj", kQuadObj), &warnings);
   EXPECT_EQ(quad.mesh.vertices.rows(), 4);
@@ -27,7 +26,7 @@ TEST(ReadObj, TriangulatesPolygonsAndResolvesNegativeIndices) {
 }
 
 TEST(ReadObj, KeepsTextureCoordinatesPerCorner) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   Warnings warnings;
   const SurfaceFile file = readSurfaceFile(
       folder.write("a.obj",
@@ -39,16 +38,16 @@ TEST(ReadObj, KeepsTextureCoordinatesPerCorner) {
 }
 
 TEST(ReadObj, WarnsOfCornersWithoutTextureCoordinates) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   Warnings warnings;
   const std::string path = folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/7\n");
   EXPECT_EQ(readSurfaceFile(path, &warnings).texture_coordinates, Points(Points::Zero(3, 3)));
   ASSERT_EQ(warnings.size(), 1U);
-  EXPECT_NE(warnings[0].find("a.obj: 1 of 3 triangle corners"), std::string::npos) << warnings[0];
+  EXPECT_TRUE(says(warnings[0], "a.obj: 1 of 3 triangle corners"));
 }
 
 TEST(WriteObj, ReadsBackBitForBit) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const TriangleMesh mesh = test::torus(1.0 / 3.0, 0.1, 17, 9);
   const Points texture = Points::Random(3 * mesh.triangles.rows(), 3).array().rowwise() *
                          Eigen::Array3d(1.0, 1.0, 0.0).transpose();
@@ -61,7 +60,7 @@ TEST(WriteObj, ReadsBackBitForBit) {
 }
 
 TEST(WriteTexturedObj, TheReadersFindThePicture) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const TriangleMesh mesh = test::torus(1.0, 0.3, 8, 6);
   const cv::Mat3b picture(5, 7, cv::Vec3b(1, 2, 3));
   writeTexturedObj(folder.file("a.obj"), mesh, Points::Zero(3 * mesh.triangles.rows(), 3), picture);
@@ -76,7 +75,7 @@ TEST(WriteTexturedObj, TheReadersFindThePicture) {
 }
 
 TEST(ReadPly, AScanSaysWhatWasSeen) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   Warnings warnings;
   const std::string header =
       "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n";
@@ -115,7 +114,7 @@ std::string binaryPly(bool big_endian) {
 }
 
 TEST(ReadPly, AsciiAndBothByteOrdersAgreeWithObj) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   Warnings warnings;
   const SurfaceFile obj = readSurfaceFile(folder.write("quad.obj", kQuadObj), &warnings);
   const std::string ascii = std::string("ply\nformat ascii 1.0\ncomment x\n") + kPlyHeader +
@@ -128,7 +127,7 @@ TEST(ReadPly, AsciiAndBothByteOrdersAgreeWithObj) {
 }
 
 TEST(ReadOff, AgreesWithObj) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   Warnings warnings;
   const SurfaceFile obj = readSurfaceFile(folder.write("quad.obj", kQuadObj), &warnings);
   const SurfaceFile off = readSurfaceFile(
@@ -148,7 +147,7 @@ std::string binaryStl() {
 }
 
 TEST(ReadStl, AsciiAndBinaryAgree) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   Warnings warnings;
   const std::string ascii =
       "solid a b\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 "
@@ -160,7 +159,7 @@ TEST(ReadStl, AsciiAndBinaryAgree) {
 }
 
 TEST(WriteVtu, ReadsBackBitForBit) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   TetMesh mesh{Points::Random(5, 3) / 3.0, Tets(2, 4)};
   mesh.tets << 0, 1, 2, 3, 1, 2, 3, 4;
   const Eigen::VectorXd volumes = tetVolumes(mesh.vertices, mesh.tets);
@@ -176,7 +175,7 @@ TEST(WriteVtu, ReadsBackBitForBit) {
 }
 
 TEST(ReadTetFile, TurnsDropsAndSaysSo) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   folder.write("a.node", "6 3 0 0\n10 0 0 0\n20 1 0 0\n30 0 1 0\n40 0 0 1\n50 1 1 0\n60 9 9 9\n");
   folder.write("a.ele", "3 4 0\n1 10 20 30 40\n2 50 20 30 40\n3 10 20 30 50\n");
   Warnings warnings;
@@ -196,12 +195,12 @@ struct BadSurface {
 class BrokenSurface : public testing::TestWithParam<BadSurface> {};
 
 TEST_P(BrokenSurface, IsRefusedWithFileAndPlace) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   Warnings warnings;
   const std::string path = folder.write(GetParam().name, GetParam().content);
   const std::string said = complaint([&] { readSurfaceFile(path, &warnings); });
-  EXPECT_NE(said.find(path), std::string::npos) << said;
-  EXPECT_NE(said.find(GetParam().place), std::string::npos) << said;
+  EXPECT_TRUE(says(said, path));
+  EXPECT_TRUE(says(said, GetParam().place));
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -243,12 +242,12 @@ INSTANTIATE_TEST_SUITE_P(
 class BrokenTets : public testing::TestWithParam<BadSurface> {};
 
 TEST_P(BrokenTets, IsRefusedWithFileAndPlace) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   Warnings warnings;
   const std::string path = folder.write(GetParam().name, GetParam().content);
   const std::string said = complaint([&] { readTetFile(path, &warnings); });
-  EXPECT_NE(said.find(path), std::string::npos) << said;
-  EXPECT_NE(said.find(GetParam().place), std::string::npos) << said;
+  EXPECT_TRUE(says(said, path));
+  EXPECT_TRUE(says(said, GetParam().place));
 }
 
 std::string vtu(const std::string& points, const std::string& connectivity, const std::string& offsets,
@@ -303,7 +302,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 /// Whatever the bytes: a sound mesh, or a sentence.
 TEST(DamagedFiles, AreReadSoundlyOrRefused) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const std::vector<std::pair<std::string, std::string>> seeds{
       {"a.obj", kQuadObj},
       {"a.off", "OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n"},
@@ -337,7 +336,7 @@ TEST(DamagedFiles, AreReadSoundlyOrRefused) {
         EXPECT_LT(mesh.triangles.maxCoeff(), mesh.vertices.rows());
       }
     } catch (const std::invalid_argument& error) {
-      EXPECT_NE(std::string(error.what()).find(path), std::string::npos) << error.what();
+      EXPECT_TRUE(says(error.what(), path));
     }
   }
 }

@@ -1,5 +1,5 @@
 #include <fmt/format.h>
-#include <gtest/gtest.h>
+#include <test_support/gtest.h>
 
 #include <cstring>
 
@@ -10,8 +10,7 @@
 namespace softbody {
 namespace {
 
-using test::complaint;
-using test::TemporaryFolder;
+using test::ScratchFolder;
 
 /// A box of eight vertices and six quadrilaterals: 3 cm^3 in cm.
 constexpr double kBoxCorners[8][3] = {{0, 0, 0}, {0, 0, 1}, {0, 1, 0}, {0, 1, 1},
@@ -110,7 +109,7 @@ struct Variant {
 class Variants : public testing::TestWithParam<Variant> {};
 
 TEST_P(Variants, AreTheSameBody) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   Warnings warnings;
   const SurfaceFile file = readSurfaceFile(folder.write(GetParam().file, GetParam().bytes), &warnings);
   ASSERT_EQ(file.mesh.vertices.rows(), GetParam().vertices);
@@ -179,7 +178,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Variant{"any_count.stl", binaryStl("box", 0xffffffff, ""), false, 36, 1}));
 
 TEST(UnreadableVariants, AreNamed) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   Warnings warnings;
   const std::vector<std::array<std::string, 3>> files{
       {"a.obj", doubled(obj()), "is UTF-16 text"},
@@ -199,7 +198,7 @@ TEST(UnreadableVariants, AreNamed) {
   for (const auto& [name, bytes, sentence] : files) {
     const std::string path = folder.write(name, bytes);
     const std::string said = complaint([&] { readSurfaceFile(path, &warnings); });
-    EXPECT_NE(said.find(sentence), std::string::npos) << name << ": " << said;
+    EXPECT_TRUE(says(said, sentence)) << name;
   }
 }
 

@@ -1,5 +1,5 @@
 #include <fmt/format.h>
-#include <gtest/gtest.h>
+#include <test_support/gtest.h>
 
 #include <filesystem>
 
@@ -12,7 +12,7 @@
 namespace softbody {
 namespace {
 
-using test::TemporaryFolder;
+using test::ScratchFolder;
 
 /// Vertices are numbered 7, 10, 13 ... in files that number them.
 constexpr int kFirst = 7, kStep = 3;
@@ -35,7 +35,7 @@ std::string numberedTets(const Tets& tets, const char* format) {
 }
 
 /// Gmsh's first format, with a triangle and a point among the tets.
-std::string writeMsh1(const TemporaryFolder& folder, const TetMesh& mesh) {
+std::string writeMsh1(const ScratchFolder& folder, const TetMesh& mesh) {
   return folder.write("body.msh",
                       fmt::format("$NOD\n{}\n{}$ENDNOD\n$ELM\n{}\n1000 2 1 1 3 7 10 13\n1001 15 1 1 1 7\n"
                                   "{}$ENDELM\n",
@@ -44,7 +44,7 @@ std::string writeMsh1(const TemporaryFolder& folder, const TetMesh& mesh) {
 }
 
 /// Gmsh's second format, with the same among the tets, and tags.
-std::string writeMsh2(const TemporaryFolder& folder, const TetMesh& mesh) {
+std::string writeMsh2(const ScratchFolder& folder, const TetMesh& mesh) {
   return folder.write("body.msh",
                       fmt::format("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n{}\n{}$EndNodes\n"
                                   "$Elements\n{}\n1000 2 2 0 1 7 10 13\n1001 15 0 7\n"
@@ -54,7 +54,7 @@ std::string writeMsh2(const TemporaryFolder& folder, const TetMesh& mesh) {
 }
 
 /// Gmsh's format 4.1, with a block of a triangle.
-std::string writeMsh4(const TemporaryFolder& folder, const TetMesh& mesh) {
+std::string writeMsh4(const ScratchFolder& folder, const TetMesh& mesh) {
   std::string ids, places;
   for (Eigen::Index v = 0; v < mesh.vertices.rows(); ++v) {
     ids += fmt::format("{}\n", kFirst + kStep * v);
@@ -79,17 +79,17 @@ std::string plainLists(const TetMesh& mesh, const char* prefix) {
   return text;
 }
 
-std::string writeGeogram(const TemporaryFolder& folder, const TetMesh& mesh) {
+std::string writeGeogram(const ScratchFolder& folder, const TetMesh& mesh) {
   return folder.write("body.tet", fmt::format("{} vertices\n{} tets\n{}", mesh.vertices.rows(),
                                               mesh.tets.rows(), plainLists(mesh, "4 ")));
 }
 
-std::string writeQuartet(const TemporaryFolder& folder, const TetMesh& mesh) {
+std::string writeQuartet(const ScratchFolder& folder, const TetMesh& mesh) {
   return folder.write("body.TET", fmt::format("\xef\xbb\xbftet {} {}\n{}", mesh.vertices.rows(),
                                               mesh.tets.rows(), plainLists(mesh, "")));
 }
 
-std::string writeVeg(const TemporaryFolder& folder, const TetMesh& mesh) {
+std::string writeVeg(const ScratchFolder& folder, const TetMesh& mesh) {
   return folder.write(
       "body.veg",
       fmt::format(
@@ -100,7 +100,7 @@ std::string writeVeg(const TemporaryFolder& folder, const TetMesh& mesh) {
 }
 
 /// With an attribute and a boundary mark for each vertex, and a region for each tet.
-std::string writeTetGen(const TemporaryFolder& folder, const TetMesh& mesh) {
+std::string writeTetGen(const ScratchFolder& folder, const TetMesh& mesh) {
   folder.write("body.node", fmt::format("{} 3 1 1\n{}# by hand\n", mesh.vertices.rows(),
                                         numberedVertices(mesh.vertices, " 0.5 1")));
   return folder.write(
@@ -108,7 +108,7 @@ std::string writeTetGen(const TemporaryFolder& folder, const TetMesh& mesh) {
 }
 
 /// Tets of ten nodes. The nodes between corners are the first ones here.
-std::string writeQuadratic(const TemporaryFolder& folder, const TetMesh& mesh) {
+std::string writeQuadratic(const ScratchFolder& folder, const TetMesh& mesh) {
   folder.write("body.node",
                fmt::format("{} 3 0 0\n{}", mesh.vertices.rows(), numberedVertices(mesh.vertices)));
   return folder.write("body.ele", fmt::format("{} 10 0\n{}", mesh.tets.rows(),
@@ -116,7 +116,7 @@ std::string writeQuadratic(const TemporaryFolder& folder, const TetMesh& mesh) {
 }
 
 /// With a line of two vertices among the tets.
-std::string writeVtuWithLine(const TemporaryFolder& folder, const TetMesh& mesh) {
+std::string writeVtuWithLine(const ScratchFolder& folder, const TetMesh& mesh) {
   std::string points, cells = "0 1\n", offsets = "2 ", types = "3 ";
   for (Eigen::Index v = 0; v < mesh.vertices.rows(); ++v)
     points += fmt::format("{:.17g} {:.17g} {:.17g}\n", mesh.vertices(v, 0), mesh.vertices(v, 1),
@@ -143,7 +143,7 @@ std::string writeVtuWithLine(const TemporaryFolder& folder, const TetMesh& mesh)
 
 struct Format {
   const char* name;
-  std::string (*write)(const TemporaryFolder& folder, const TetMesh& mesh);
+  std::string (*write)(const ScratchFolder& folder, const TetMesh& mesh);
   const char* warning;  ///< a part of the text; empty: no warning
 };
 
@@ -151,7 +151,7 @@ class TetFormats : public ::testing::TestWithParam<Format> {};
 
 TEST_P(TetFormats, GiveTheSameBodyWithPositiveTetsThatFillTheBoundary) {
   const TetTopology box = testing::boxTopology({7, 5, 4}, {0.21, 0.1, 1.0 / 3.0});
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   Warnings warnings;
   const TetMesh mesh = readTetFile(GetParam().write(folder, {box.rest_vertices, box.tets}), &warnings);
   EXPECT_EQ(mesh.vertices, box.rest_vertices);
@@ -165,7 +165,7 @@ TEST_P(TetFormats, GiveTheSameBodyWithPositiveTetsThatFillTheBoundary) {
     EXPECT_TRUE(warnings.empty()) << warnings[0];
   } else {
     ASSERT_EQ(warnings.size(), 1u);
-    EXPECT_NE(warnings[0].find(expected), std::string::npos) << warnings[0];
+    EXPECT_TRUE(says(warnings[0], expected));
   }
 }
 

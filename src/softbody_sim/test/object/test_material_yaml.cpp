@@ -1,4 +1,4 @@
-#include <gtest/gtest.h>
+#include <test_support/gtest.h>
 
 #include "fixtures/object_model_test.h"
 #include "softbody_sim/object/material_yaml.h"
@@ -64,7 +64,7 @@ TEST_F(MaterialYaml, ADeviationThatIsNotKnownGoes) {
   expectEqual(roundTrip("object:\n  visual_mesh: visual.obj\n  material: {youngs_modulus_std_pa: 5}\n",
                         unknown, &result),
               unknown);
-  EXPECT_EQ(result.find("std"), std::string::npos) << result;
+  EXPECT_FALSE(says(result, "std"));
 }
 
 TEST_F(MaterialYaml, RegionsKeepTheirBoxes) {

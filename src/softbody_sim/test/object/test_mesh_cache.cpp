@@ -1,5 +1,5 @@
-#include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <test_support/gtest.h>
 
 #include "fixtures/object_model_test.h"
 #include "softbody_common/files/input_file.h"
@@ -42,8 +42,7 @@ class KeptVolume : public ObjectModelTest {
     EXPECT_EQ(again.volume.rest_vertices, made_.volume.rest_vertices);
     EXPECT_EQ(again.volume.tets, made_.volume.tets);
     ASSERT_EQ(again.warnings.size(), 1U);
-    EXPECT_NE(again.warnings[0].find("the cache of prepared models is not used"), std::string::npos)
-        << again.warnings[0];
+    EXPECT_TRUE(says(again.warnings[0], "the cache of prepared models is not used"));
   }
 
   ObjectDescription description_ = describe(test::block());
@@ -95,7 +94,7 @@ TEST_F(ObjectModelTest, AnUnusableCacheIsAWarning) {
   const ObjectModel model = buildObjectModel(describe(test::block()));
   expectSound(model);
   ASSERT_EQ(model.warnings.size(), 1U);
-  EXPECT_NE(model.warnings[0].find("the cache of prepared models is not used"), std::string::npos);
+  EXPECT_TRUE(says(model.warnings[0], "the cache of prepared models is not used"));
 }
 
 }  // namespace

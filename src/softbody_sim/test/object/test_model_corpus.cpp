@@ -13,7 +13,7 @@ namespace {
 
 using test::CorpusMesh;
 using test::PreparedModel;
-using test::TemporaryFolder;
+using test::ScratchFolder;
 
 std::string joined(const std::vector<std::string>& sentences) {
   std::string all;
@@ -32,21 +32,21 @@ TriangleMesh box(const Eigen::RowVector3d& size) {
 }
 
 PreparedModel prepare(const TriangleMesh& mesh) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   writeObj(folder.file("mesh.obj"), mesh);
   return test::prepareAndCheck({"mesh", folder.file("mesh.obj"), false}, folder.file("."));
 }
 
 /// A cow, a torus and the boundary of a tet mesh. `make shared-data` prepares many more.
 TEST(ModelCorpus, SurfacesAndBoundariesArePreparedWithoutFault) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   std::filesystem::copy(test::testData("spot.obj"), folder.file("spot.obj"));
   writeObj(folder.file("torus.obj"), test::torus(0.1, 0.03, 60, 24));
   const TetTopology tets = testing::boxTopology({8, 4, 4}, {0.2, 0.1, 0.1});
   writeVtu(folder.file("tets.vtu"), {tets.rest_vertices, tets.tets});
   const std::vector<CorpusMesh> corpus = test::modelCorpus(folder.file("."));
   ASSERT_EQ(corpus.size(), 3u);
-  const TemporaryFolder scratch;
+  const ScratchFolder scratch;
   for (const CorpusMesh& mesh : corpus) {
     const PreparedModel prepared = test::prepareAndCheck(mesh, scratch.file("."));
     EXPECT_TRUE(prepared.faults.empty()) << mesh.name << ": " << joined(prepared.faults);

@@ -1,4 +1,4 @@
-#include <gtest/gtest.h>
+#include <test_support/gtest.h>
 
 #include <algorithm>
 #include <opencv2/imgcodecs.hpp>
@@ -13,7 +13,6 @@
 namespace softbody {
 namespace {
 
-using test::complaint;
 using test::expectSound;
 using test::ObjectModelTest;
 using test::stretched;
@@ -43,7 +42,7 @@ TEST_F(ObjectModelTest, TheLengthOrTheScaleReplacesTheUnit) {
   };
   EXPECT_NEAR(longestSide({description.visual_mesh, "m", 0.0, {0.0, 0.2, "", 0}}), 0.2, 1e-6);
   EXPECT_NEAR(longestSide({description.visual_mesh, "m", 0.01, {}}), 37 * 0.2 * 0.01, 1e-4);
-  EXPECT_NE(output.str().find("**Verdict: good.**"), std::string::npos) << output.str();
+  EXPECT_TRUE(says(output.str(), "**Verdict: good.**"));
 }
 
 TEST_F(ObjectModelTest, ThePictureOfTheMeshIsKept) {
@@ -57,7 +56,7 @@ TEST_F(ObjectModelTest, ThePictureOfTheMeshIsKept) {
   };
   cv::imwrite(folder_.file("my skin.png"), cv::Mat3b(4, 4, cv::Vec3b(1, 2, 3)));
   cv::imwrite(folder_.file("skin.bmp"), cv::Mat3b(4, 4, cv::Vec3b(1, 2, 3)));
-  EXPECT_EQ(prepare("newmtl body\nmap_Kd C:\\Users\\me\\my skin.png\n").find("picture"), std::string::npos);
+  EXPECT_FALSE(says(prepare("newmtl body\nmap_Kd C:\\Users\\me\\my skin.png\n"), "picture"));
   EXPECT_EQ(readFile(folder_.file("out/visual.png")), readFile(folder_.file("my skin.png")));
   Warnings warnings;
   const SurfaceFile visual = readSurfaceFile(folder_.file("out/visual.obj"), &warnings);
@@ -68,9 +67,9 @@ TEST_F(ObjectModelTest, ThePictureOfTheMeshIsKept) {
 
   prepare("newmtl body\nmap_Kd -s 1 1 1 skin.bmp\n");
   EXPECT_EQ(cv::imread(folder_.file("out/visual.png"))(cv::Rect(0, 0, 1, 1)).data[0], 1);
-  EXPECT_NE(prepare("newmtl body\nmap_Kd gone.png\n").find("map_Kd names 'gone.png', but there is no file"),
-            std::string::npos);
-  EXPECT_EQ(readFile(folder_.file("out/visual.obj")).find("mtllib"), std::string::npos);
+  EXPECT_TRUE(
+      says(prepare("newmtl body\nmap_Kd gone.png\n"), "map_Kd names 'gone.png', but there is no file"));
+  EXPECT_FALSE(says(readFile(folder_.file("out/visual.obj")), "mtllib"));
 }
 
 TEST_F(ObjectModelTest, TheColoursOfTheVerticesAreKept) {
@@ -95,7 +94,7 @@ TEST_F(ObjectModelTest, ARefusedMeshLeavesTheFolderAsItWas) {
             "");
   EXPECT_EQ(readFile(folder_.file("out/object.yaml")), "mine");
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder_.file("."))) {
-    EXPECT_EQ(entry.path().string().find(".part"), std::string::npos) << entry.path();
+    EXPECT_FALSE(says(entry.path().string(), ".part")) << entry.path();
   }
 }
 
@@ -109,7 +108,7 @@ TEST_F(ObjectModelTest, AFolderIsPreparedAgainButFilesOfTheUserStay) {
   };
   std::filesystem::create_directories(folder_.file("theirs"));
   folder_.write("theirs/cage.obj", "mine");
-  EXPECT_NE(prepare("theirs").find("theirs/cage.obj was not made by prepare_model"), std::string::npos);
+  EXPECT_TRUE(says(prepare("theirs"), "theirs/cage.obj was not made by prepare_model"));
   EXPECT_EQ(readFile(folder_.file("theirs/cage.obj")), "mine");
   EXPECT_EQ(prepare("out"), "");
   folder_.write("out/notes.txt", "mine");
@@ -118,7 +117,7 @@ TEST_F(ObjectModelTest, AFolderIsPreparedAgainButFilesOfTheUserStay) {
   std::filesystem::remove(folder_.file("out/tets.vtu"));
   std::filesystem::create_directories(folder_.file("out/tets.vtu"));
   folder_.write("out/visual.obj", "mine");
-  EXPECT_NE(prepare("out").find("out/tets.vtu was not made by prepare_model"), std::string::npos);
+  EXPECT_TRUE(says(prepare("out"), "out/tets.vtu was not made by prepare_model"));
   EXPECT_EQ(readFile(folder_.file("out/visual.obj")), "mine");
 }
 
@@ -172,7 +171,7 @@ TEST_F(ObjectModelTest, AClosedBodyGetsNoThickness) {
     prepareModel({folder_.file("visual.obj"), "m", 0.0, {0.01, 0.0, "", 0}}, folder_.file("out"), {},
                  progress);
   });
-  EXPECT_NE(said.find("visual.obj: has no open edges"), std::string::npos) << said;
+  EXPECT_TRUE(says(said, "visual.obj: has no open edges"));
 }
 
 /// At any time before the files have their names.

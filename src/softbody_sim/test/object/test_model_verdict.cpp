@@ -1,4 +1,4 @@
-#include <gtest/gtest.h>
+#include <test_support/gtest.h>
 
 #include "report/model_verdict.h"
 
@@ -21,7 +21,7 @@ TEST(ModelVerdict, AGoodModelIsCalledGood) { EXPECT_EQ(worst(judge(goodModel(), 
 
 TEST(ModelVerdict, AWrongUnitIsSeenByTheSize) {
   for (const double side : {200.0, 0.0002}) EXPECT_EQ(worst(judge(goodModel(), side)), Verdict::kBad);
-  EXPECT_NE(judge(goodModel(), 200.0).front().sentence.find("--unit"), std::string::npos);
+  EXPECT_TRUE(says(judge(goodModel(), 200.0).front().sentence, "--unit"));
 }
 
 /// Each property that gets worse makes the verdict worse, never better.

@@ -1,4 +1,4 @@
-#include <gtest/gtest.h>
+#include <test_support/gtest.h>
 
 #include <limits>
 
@@ -16,7 +16,6 @@
 namespace softbody {
 namespace {
 
-using test::complaint;
 using test::expectSound;
 using test::ObjectModelTest;
 using test::stretched;
@@ -52,7 +51,7 @@ TEST_F(ObjectModelTest, AMeshWithHolesIsEnclosedToo) {
   const ObjectModel model = buildObjectModel(describe(mesh));
   expectSound(model);
   ASSERT_EQ(model.warnings.size(), 1U);
-  EXPECT_NE(model.warnings[0].find("1 holes were filled"), std::string::npos);
+  EXPECT_TRUE(says(model.warnings[0], "1 holes were filled"));
 }
 
 TEST_F(ObjectModelTest, AGivenCageIsFilled) {
@@ -86,8 +85,7 @@ TEST_F(ObjectModelTest, AnOpenCageIsRefused) {
   writeObj(folder_.file("cage.obj"), cage);
   description.cage_mesh = folder_.file("cage.obj");
   const std::string said = complaint([&] { buildObjectModel(description); });
-  EXPECT_NE(said.find("cage.obj: the cage must be closed; 3 edges have one triangle"), std::string::npos)
-      << said;
+  EXPECT_TRUE(says(said, "cage.obj: the cage must be closed; 3 edges have one triangle"));
 }
 
 TEST_F(ObjectModelTest, AMeshThatSticksOutOfItsTetsIsAcceptedAndTheWarningSaysHowFar) {
@@ -99,8 +97,7 @@ TEST_F(ObjectModelTest, AMeshThatSticksOutOfItsTetsIsAcceptedAndTheWarningSaysHo
   writeVtu(description.tet_mesh, {box.rest_vertices, box.tets});
   const ObjectModel model = buildObjectModel(description);
   EXPECT_EQ(model.volume.tets, box.tets);
-  EXPECT_NE(model.warnings.back().find("lie outside of the tets, by up to 14 mm"), std::string::npos)
-      << model.warnings.back();
+  EXPECT_TRUE(says(model.warnings.back(), "lie outside of the tets, by up to 14 mm"));
 }
 
 TEST_F(ObjectModelTest, DISABLED_ToyTetsAreAcceptedAndTheWarningSaysHowFarItSticksOut) {
@@ -109,8 +106,7 @@ TEST_F(ObjectModelTest, DISABLED_ToyTetsAreAcceptedAndTheWarningSaysHowFarItStic
   description.tet_mesh = test::sharedData("toys/toy_tets.vtu");
   const ObjectModel model = buildObjectModel(description);
   EXPECT_EQ(model.volume.tets.rows(), 3068);
-  EXPECT_NE(model.warnings.back().find("lie outside of the tets, by up to 11 mm"), std::string::npos)
-      << model.warnings.back();
+  EXPECT_TRUE(says(model.warnings.back(), "lie outside of the tets, by up to 11 mm"));
 }
 
 TEST_F(ObjectModelTest, AMeasuredStiffnessHasAStandardDeviation) {
@@ -135,7 +131,7 @@ TEST_F(ObjectModelTest, DescriptionIsReadWithPathsRelativeToItsFile) {
   EXPECT_TRUE(
       (*description.initial_pose * Eigen::Vector3d::UnitX()).isApprox(Eigen::Vector3d(1, 3, 3), 1e-12));
   ASSERT_EQ(description.warnings.size(), 1U);
-  EXPECT_NE(description.warnings[0].find("object.yaml:4: unknown key object/colour"), std::string::npos);
+  EXPECT_TRUE(says(description.warnings[0], "object.yaml:4: unknown key object/colour"));
 }
 
 TEST_F(ObjectModelTest, MaterialsOfRegionsTakeMissingValuesFromTheObject) {
@@ -187,13 +183,11 @@ TEST_F(ObjectModelTest, BrokenDescriptionsAreRefusedWithLineKeyValueAndRange) {
   for (const auto& [text, expected] : cases) {
     const std::string path = yaml(text);
     const std::string said = complaint([&path = path] { loadObjectDescription(path); });
-    EXPECT_NE(said.find(path + (expected[0] == ':' ? expected : "")), std::string::npos) << text << "\n"
-                                                                                         << said;
-    EXPECT_NE(said.find(expected), std::string::npos) << text << "\n" << said;
+    EXPECT_TRUE(says(said, path + (expected[0] == ':' ? expected : ""))) << text;
+    EXPECT_TRUE(says(said, expected)) << text;
   }
-  EXPECT_NE(
-      complaint([&] { loadObjectDescription(folder_.file("none.yaml")); }).find("none.yaml: cannot be read"),
-      std::string::npos);
+  EXPECT_TRUE(says(complaint([&] { loadObjectDescription(folder_.file("none.yaml")); }),
+                   "none.yaml: cannot be read"));
 }
 
 TEST_F(ObjectModelTest, ShippedSpongeIsThePapersOwn) {

@@ -1,4 +1,4 @@
-#include <gtest/gtest.h>
+#include <test_support/gtest.h>
 
 #include <numeric>
 #include <random>
@@ -125,15 +125,14 @@ TEST(RepairSurface, DropsFarVerticesOfNoTriangleAndOfFlatOnesBeforeItMeasures) {
 }
 
 TEST(RepairSurface, RefusesAMeshWithoutArea) {
-  const test::TemporaryFolder folder;
+  const test::ScratchFolder folder;
   const std::string path = folder.write("flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n");
   Warnings warnings;
-  EXPECT_NE(test::complaint([&] { loadSurface(path, 1.0, &warnings); }).find("no triangle has an area"),
-            std::string::npos);
+  EXPECT_TRUE(says(complaint([&] { loadSurface(path, 1.0, &warnings); }), "no triangle has an area"));
 }
 
 TEST(LoadVisualMesh, ScalesAndFillsTheTopology) {
-  const test::TemporaryFolder folder;
+  const test::ScratchFolder folder;
   const TriangleMesh mesh = test::torus(100.0, 30.0, 24, 12);
   writeObj(folder.file("torus.obj"), mesh);
   ObjectDescription description;
@@ -155,7 +154,7 @@ TEST(LoadVisualMesh, AHoleIsFilledAndAFinIsDropped) {
   // A fin on one edge, and a hole where the last triangle was.
   mesh.triangles << ring.triangles.topRows(ring.triangles.rows() - 1),
       Eigen::RowVector3i(ring.triangles(0, 0), ring.triangles(0, 1), static_cast<int>(ring.vertices.rows()));
-  const test::TemporaryFolder folder;
+  const test::ScratchFolder folder;
   writeObj(folder.file("fin.obj"), exploded(mesh).mesh);
   ObjectDescription description;
   description.visual_mesh = folder.file("fin.obj");
@@ -166,10 +165,8 @@ TEST(LoadVisualMesh, AHoleIsFilledAndAFinIsDropped) {
   EXPECT_NEAR(enclosedVolume(topology.rest_vertices, topology.triangles),
               enclosedVolume(ring.vertices, ring.triangles), 1e-9);
   ASSERT_EQ(warnings.size(), 3U);
-  EXPECT_NE(warnings[1].find("1 surfaces that enclose no volume were dropped; the largest: 1 triangles"),
-            std::string::npos)
-      << warnings[1];
-  EXPECT_NE(warnings[2].find("1 holes were filled"), std::string::npos) << warnings[2];
+  EXPECT_TRUE(says(warnings[1], "1 surfaces that enclose no volume were dropped; the largest: 1 triangles"));
+  EXPECT_TRUE(says(warnings[2], "1 holes were filled"));
 }
 
 TEST(LoadVisualMesh, DISABLED_ToyIsWeldedAndKeepsItsBranchingEdges) {

@@ -1,4 +1,4 @@
-#include <gtest/gtest.h>
+#include <test_support/gtest.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -68,8 +68,8 @@ TEST(MarkerBoard, PdfAndSvgHaveThePapersSize) {
   writeBoardPdf(board, base.string() + ".pdf");
   writeBoardSvg(board, base.string() + ".svg");
   const std::string pdf = content(base.string() + ".pdf"), svg = content(base.string() + ".svg");
-  EXPECT_NE(pdf.find("MediaBox [ 0 0 595.27"), std::string::npos);
-  EXPECT_NE(svg.find("width=\"595.27"), std::string::npos);
+  EXPECT_TRUE(says(pdf, "MediaBox [ 0 0 595.27"));
+  EXPECT_TRUE(says(svg, "width=\"595.27"));
   std::filesystem::remove(base.string() + ".pdf");
   std::filesystem::remove(base.string() + ".svg");
   EXPECT_THROW(writeBoardPdf(board, "/nowhere/board.pdf"), std::runtime_error);

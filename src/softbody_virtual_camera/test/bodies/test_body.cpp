@@ -1,6 +1,6 @@
 #include "softbody_virtual_camera/bodies/body.h"
 
-#include <gtest/gtest.h>
+#include <test_support/gtest.h>
 
 #include <cstdio>
 #include <filesystem>
@@ -76,15 +76,15 @@ TEST_F(BodyFiles, ShowsThePicturesThatTheMaterialsName) {
 
 TEST_F(BodyFiles, WarnsOfAMissingFileOrMaterialAndWhere) {
   writeObj("mtllib absent.mtl\n" + faces_);
-  EXPECT_NE(warning().find("body.obj:8: mtllib names 'absent.mtl'"), std::string::npos) << warning();
+  EXPECT_TRUE(says(warning(), "body.obj:8: mtllib names 'absent.mtl'"));
   write("body.mtl", "newmtl skin\nmap_Kd absent.png\n");
   writeObj("mtllib body.mtl\nusemtl skin\n" + faces_);
-  EXPECT_NE(warning().find("body.mtl:2: map_Kd names 'absent.png'"), std::string::npos) << warning();
+  EXPECT_TRUE(says(warning(), "body.mtl:2: map_Kd names 'absent.png'"));
   write("body.mtl", "newmtl other\n");
-  EXPECT_NE(warning().find("the material 'skin'"), std::string::npos) << warning();
+  EXPECT_TRUE(says(warning(), "the material 'skin'"));
   write("body.mtl", "newmtl skin\nmap_Kd skin.png\n");
   write("skin.png", "no picture");
-  EXPECT_NE(complaint().find("skin.png: is not an image"), std::string::npos) << complaint();
+  EXPECT_TRUE(says(complaint(), "skin.png: is not an image"));
 }
 
 /// A bare file name has no folder.
@@ -107,9 +107,9 @@ TEST_F(BodyFiles, WantsFacesAndForPicturesTextureCoordinates) {
   cv::imwrite((folder_ / "skin.png").string(), cv::Mat3b(4, 4, cv::Vec3b(1, 2, 3)));
   write("body.mtl", "newmtl skin\nmap_Kd skin.png\n");
   writeObj("mtllib body.mtl\nusemtl skin\nf 1 3 2\n");
-  EXPECT_NE(complaint().find("no texture coordinates"), std::string::npos) << complaint();
+  EXPECT_TRUE(says(complaint(), "no texture coordinates"));
   writeObj("f 1 2 9\n");
-  EXPECT_NE(complaint().find("body.obj:8"), std::string::npos) << complaint();
+  EXPECT_TRUE(says(complaint(), "body.obj:8"));
 }
 
 TEST(PictureColor, IsBilinearAndRepeats) {

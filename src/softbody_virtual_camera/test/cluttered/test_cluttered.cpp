@@ -144,14 +144,10 @@ TEST(Cluttered, TheFistHoldsTheSameEndWhileItMoves) {
   std::set<bool> ends;
   for (int seed = 1; seed <= kSeeds; ++seed) {
     const Scene scene = clutteredScene("held", seed);
-    const auto inBody = [&](double t, std::size_t actor) {
-      const SceneState state = scene.state(t);
-      return transformed(state.T_camera_body.inverse(), state.vertices.at(actor));
-    };
-    const double end = inBody(0.0, 3).col(0).mean() > 0.0 ? 1.0 : -1.0;
+    const double end = inBodyFrame(scene, 0.0, 3).col(0).mean() > 0.0 ? 1.0 : -1.0;
     ends.insert(end > 0.0);
-    EXPECT_LT((inBody(2.0, 3) - inBody(0.0, 3)).norm(), 1e-9);
-    const Points rest = inBody(0.0, 0), moved = inBody(2.0, 0);
+    EXPECT_LT((inBodyFrame(scene, 2.0, 3) - inBodyFrame(scene, 0.0, 3)).norm(), 1e-9);
+    const Points rest = inBodyFrame(scene, 0.0), moved = inBodyFrame(scene, 2.0);
     for (Eigen::Index i = 0; i < rest.rows(); ++i) {
       if (end * rest(i, 0) > 0.056) {
         EXPECT_LT((moved.row(i) - rest.row(i)).norm(), 1e-9);

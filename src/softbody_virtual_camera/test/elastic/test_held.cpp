@@ -12,12 +12,6 @@ namespace {
 
 const char* const kHeldScenes[] = {"pull_held", "bend_held", "twist_held", "push_held", "press_held"};
 
-const Scene& heldScene(const std::string& name) {
-  static std::map<std::string, Scene> made;
-  if (made.count(name) == 0) made[name] = makeScene(name, shippedBody(objectOf(name)), 1);
-  return made[name];
-}
-
 std::map<std::string, Eigen::Isometry3d> framesAt(const Scene& scene, double t) {
   const SceneState state = scene.state(t);
   std::map<std::string, Eigen::Isometry3d> frames;
@@ -41,18 +35,13 @@ Eigen::Matrix<double, 6, 1> sumOfWrenches(const Scene& scene, double t, double* 
   return sum;
 }
 
-Points bodyAt(const Scene& scene, double t) {
-  const SceneState state = scene.state(t);
-  return transformed(state.T_camera_body.inverse(), state.vertices.at(0));
-}
-
 double wayBetween(const Scene& scene, double from, double to) {
-  return (bodyAt(scene, to) - bodyAt(scene, from)).rowwise().norm().maxCoeff();
+  return (inBodyFrame(scene, to) - inBodyFrame(scene, from)).rowwise().norm().maxCoeff();
 }
 
 TEST(Held, WhatHoldsAndPressesTheBodyIsInBalance) {
   for (const char* name : kHeldScenes) {
-    const Scene& scene = heldScene(name);
+    const Scene& scene = madeScene(name);
     for (const double t : {1.6, 2.6, 3.5, 4.8, 5.4}) {
       double largest = 0.0;
       const auto sum = sumOfWrenches(scene, t, &largest);
@@ -65,7 +54,7 @@ TEST(Held, WhatHoldsAndPressesTheBodyIsInBalance) {
 
 TEST(Held, TheBodyMovesInTheLastFifthAndElsewhere) {
   for (const char* name : kHeldScenes) {
-    const Scene& scene = heldScene(name);
+    const Scene& scene = madeScene(name);
     EXPECT_GE(scene.duration_s, 5.0);
     EXPECT_LE(scene.duration_s, 6.0);
     EXPECT_GT(wayBetween(scene, 0.8 * scene.duration_s, scene.duration_s), 3e-3) << name;
@@ -75,7 +64,7 @@ TEST(Held, TheBodyMovesInTheLastFifthAndElsewhere) {
 
 TEST(Held, TheEndsFollowClampAndGripper) {
   for (const char* name : {"pull_held", "bend_held", "twist_held", "press_held"}) {
-    const Scene& scene = heldScene(name);
+    const Scene& scene = madeScene(name);
     const Points& rest = scene.actors[0].rest.vertices;
     const auto inFrame = [&](double t, const std::string& frame) {
       return transformed(framesAt(scene, t).at(frame).inverse(), scene.state(t).vertices[0]);
@@ -101,14 +90,14 @@ TEST(Held, AStifferAndLargerBodyPullsHarder) {
   large.rest.vertices *= 2.0;
   large.elasticity.youngs_modulus_pa *= 3.0;
   const Scene scene = makeScene("pull_held", large, 1);
-  const ContactWrench small = heldScene("pull_held").state(3.1).wrenches.at(1),
+  const ContactWrench small = madeScene("pull_held").state(3.1).wrenches.at(1),
                       found = scene.state(3.1).wrenches.at(1);
   EXPECT_LT((found.force - 12.0 * small.force).norm(), 1e-3 * found.force.norm());
   EXPECT_LT((found.torque - 24.0 * small.torque).norm(), 1e-3 * found.torque.norm());
 }
 
 TEST(Held, APulledBodyPullsAsHookesLawSays) {
-  const Scene& scene = heldScene("pull_held");
+  const Scene& scene = madeScene("pull_held");
   // By 20 %: stiffer than a free bar, because its ends keep their size, and softer, because it becomes
   // thinner.
   const double expected = 2.0e4 * 0.2 * 0.1 * 0.04;
@@ -127,7 +116,7 @@ TEST(Pressed, TheWrenchOnAStampIsThatOfAForceAtItsPlace) {
 }
 
 TEST(Plates, AreInBalanceWithTheForceOfTheBlock) {
-  const Scene& scene = makeScene("plates", shippedBody("sponge"), 1);
+  const Scene& scene = madeScene("plates");
   const auto frames = framesAt(scene, 2.8);
   const ContactWrench wrench = scene.state(2.8).wrenches.at(0);
   EXPECT_EQ(wrench.name, "plate");
@@ -140,7 +129,7 @@ TEST(Plates, AreInBalanceWithTheForceOfTheBlock) {
   EXPECT_LT(wrench.torque.norm(), 1e-3 * wrench.force.z());
   EXPECT_LT(scene.state(0.3).wrenches.at(0).force.norm(), 1e-9);
   // The body touches both plates and becomes wider in between.
-  const Points body = bodyAt(scene, 2.8);
+  const Points body = inBodyFrame(scene, 2.8);
   EXPECT_NEAR(body.col(1).maxCoeff() - body.col(1).minCoeff(), 0.1 * (1.0 - shorter), 0.4e-3);
   EXPECT_GT(body.col(0).maxCoeff(), 0.1 + 1e-3);
 }

@@ -2,7 +2,6 @@
 
 #include <geometry_msgs/PoseStamped.h>
 #include <geometry_msgs/WrenchStamped.h>
-#include <gtest/gtest.h>
 #include <rosbag/view.h>
 #include <sensor_msgs/Image.h>
 #include <softbody_msgs/Cut.h>
@@ -10,6 +9,7 @@
 #include <softbody_msgs/MeshState.h>
 #include <softbody_msgs/MeshTopology.h>
 #include <std_msgs/String.h>
+#include <test_support/gtest.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include <Eigen/Geometry>
@@ -20,6 +20,7 @@
 #include <opencv2/core/utility.hpp>
 #include <sstream>
 
+#include "softbody_common/files/input_file.h"
 #include "softbody_common/images/pixel_labels.h"
 #include "softbody_common/ros/conversions.h"
 #include "softbody_virtual_camera/camera/camera_setup.h"
@@ -27,46 +28,53 @@
 namespace softbody::virtual_camera {
 namespace {
 
-std::string write(const std::string& name, std::uint64_t seed, const NoiseOptions& noise = {},
-                  bool labels = false) {
+/// A small camera. @param scene empty: the usual one.
+CameraSetup smallCamera(const std::string& scene = "", int width = 80, int height = 60) {
   CameraSetup setup;
-  setup.body = std::string(CONFIG_DIR) + "/sponge.obj";
-  setup.seed = seed;
-  setup.width = 80;
-  setup.height = 60;
-  setup.noise = noise;
-  VirtualCamera camera = makeCamera(setup);
-  const std::string path = testing::TempDir() + name;
-  writeBag(&camera, {path, 35, 30.0, labels}, [](int) {});
-  return path;
+  setup.config_folder = CONFIG_DIR;
+  if (!scene.empty()) setup.scene = scene;
+  setup.width = width;
+  setup.height = height;
+  return setup;
 }
 
-std::string bytes(const std::string& path) {
-  std::ostringstream content;
-  content << std::ifstream(path, std::ios::binary).rdbuf();
-  return content.str();
+/// Writes a bag. @return its path.
+std::string write(const std::string& name, const CameraSetup& setup, BagOptions options) {
+  options.path = testing::TempDir() + name;
+  VirtualCamera camera = makeCamera(setup);
+  writeBag(&camera, options, [](int) {});
+  return options.path;
+}
+
+std::string write(const std::string& name, std::uint64_t seed, const NoiseOptions& noise = {},
+                  bool labels = false) {
+  CameraSetup setup = smallCamera();
+  setup.body = std::string(CONFIG_DIR) + "/sponge.obj";
+  setup.seed = seed;
+  setup.noise = noise;
+  return write(name, setup, {"", 35, 30.0, labels});
+}
+
+template <typename Message>
+std::vector<boost::shared_ptr<const Message>> messagesOf(const rosbag::Bag& bag, const std::string& topic) {
+  std::vector<boost::shared_ptr<const Message>> messages;
+  for (const rosbag::MessageInstance& m : rosbag::View(bag, rosbag::TopicQuery(topic)))
+    messages.push_back(m.instantiate<Message>());
+  return messages;
 }
 
 TEST(BagWriter, SameSeedSameBytesOtherSeedOtherBytes) {
-  const std::string first = bytes(write("first.bag", 4));
-  EXPECT_TRUE(first == bytes(write("second.bag", 4)));
-  EXPECT_FALSE(first == bytes(write("third.bag", 5)));
-  EXPECT_FALSE(first == bytes(write("clean.bag", 4, noNoise())));
+  const std::string first = readFile(write("first.bag", 4));
+  EXPECT_TRUE(first == readFile(write("second.bag", 4)));
+  EXPECT_FALSE(first == readFile(write("third.bag", 5)));
+  EXPECT_FALSE(first == readFile(write("clean.bag", 4, noNoise())));
 }
 
 TEST(BagWriter, TheDollsBytesDoNotDependOnTheNumberOfThreads) {
   const int threads = cv::getNumThreads();
   const auto recorded = [](const std::string& name, int number) {
     cv::setNumThreads(number);
-    CameraSetup setup;
-    setup.scene = "doll_shake";
-    setup.config_folder = CONFIG_DIR;
-    setup.width = 160;
-    setup.height = 120;
-    VirtualCamera camera = makeCamera(setup);
-    const std::string path = testing::TempDir() + name;
-    writeBag(&camera, {path, 6, 5.0}, [](int) {});
-    return bytes(path);
+    return readFile(write(name, smallCamera("doll_shake", 160, 120), {"", 6, 5.0}));
   };
   const std::string one = recorded("one.bag", 1);
   EXPECT_TRUE(one == recorded("three.bag", 3));
@@ -121,21 +129,14 @@ TEST(BagWriter, TheCamerasPoseIsTheInverseOfTheBodysPose) {
 }
 
 TEST(BagWriter, WritesLabelsWhenAskedWithTheStampOfTheImages) {
-  const auto labelsIn = [](const rosbag::Bag& bag) {
-    std::vector<sensor_msgs::ImageConstPtr> images;
-    for (const rosbag::MessageInstance& m : rosbag::View(bag, rosbag::TopicQuery("/ground_truth/labels")))
-      images.push_back(m.instantiate<sensor_msgs::Image>());
-    return images;
-  };
-  EXPECT_TRUE(labelsIn(rosbag::Bag(write("plain.bag", 1))).empty());
-  rosbag::Bag bag(write("labels.bag", 1, {}, true));
-  std::vector<ros::Time> stamps;
-  for (const rosbag::MessageInstance& m : rosbag::View(bag, rosbag::TopicQuery("/camera/color/image_raw")))
-    stamps.push_back(m.getTime());
-  const auto images = labelsIn(bag);
-  ASSERT_EQ(images.size(), stamps.size());
+  const std::string topic = "/ground_truth/labels";
+  EXPECT_TRUE(messagesOf<sensor_msgs::Image>(rosbag::Bag(write("plain.bag", 1)), topic).empty());
+  const rosbag::Bag bag(write("labels.bag", 1, {}, true));
+  const auto images = messagesOf<sensor_msgs::Image>(bag, topic),
+             colors = messagesOf<sensor_msgs::Image>(bag, "/camera/color/image_raw");
+  ASSERT_EQ(images.size(), colors.size());
   for (std::size_t i = 0; i < images.size(); ++i) {
-    EXPECT_EQ(images[i]->header.stamp, stamps[i]);
+    EXPECT_EQ(images[i]->header.stamp, colors[i]->header.stamp);
     EXPECT_EQ(images[i]->header.frame_id, "camera_color_optical_frame");
     EXPECT_EQ(images[i]->encoding, "mono8");
     EXPECT_EQ(std::count(images[i]->data.begin(), images[i]->data.end(), labels::kBody) > 100, true);
@@ -143,18 +144,8 @@ TEST(BagWriter, WritesLabelsWhenAskedWithTheStampOfTheImages) {
 }
 
 TEST(BagWriter, WritesTheForcesThatASceneKnows) {
-  CameraSetup setup;
-  setup.scene = "stamp";
-  setup.config_folder = CONFIG_DIR;
-  setup.width = 80;
-  setup.height = 60;
-  VirtualCamera camera = makeCamera(setup);
-  const std::string path = testing::TempDir() + "forces.bag";
-  writeBag(&camera, {path, 3, 0.4}, [](int) {});  // at 0, 2.5 and 5 s
-  rosbag::Bag bag(path);
-  std::vector<softbody_msgs::ForcesConstPtr> found;
-  for (const rosbag::MessageInstance& m : rosbag::View(bag, rosbag::TopicQuery("/ground_truth/forces")))
-    found.push_back(m.instantiate<softbody_msgs::Forces>());
+  const rosbag::Bag bag(write("forces.bag", smallCamera("stamp"), {"", 3, 0.4}));  // at 0, 2.5 and 5 s
+  const auto found = messagesOf<softbody_msgs::Forces>(bag, "/ground_truth/forces");
   ASSERT_EQ(found.size(), 3u);
   EXPECT_TRUE(found[0]->patches.empty());
   EXPECT_TRUE(found[2]->patches.empty());
@@ -165,31 +156,20 @@ TEST(BagWriter, WritesTheForcesThatASceneKnows) {
   EXPECT_EQ(found[1]->patches[1].name, "table");
   EXPECT_GT(found[1]->patches[0].force.y, 3.0);  // down
   EXPECT_NEAR(found[1]->wrench.force.y, 0.0, 1e-4);
-  rosbag::Bag other(write("no_forces.bag", 1));
-  EXPECT_EQ(rosbag::View(other, rosbag::TopicQuery("/ground_truth/forces")).size(), 0u);
+  const rosbag::Bag other(write("no_forces.bag", 1));
+  EXPECT_TRUE(messagesOf<softbody_msgs::Forces>(other, "/ground_truth/forces").empty());
 }
 
 TEST(BagWriter, WritesWhatASensorAtTheClampSaysAndTheTruthAboutIt) {
-  CameraSetup setup;
-  setup.scene = "sag";
-  setup.config_folder = CONFIG_DIR;
-  setup.width = 80;
-  setup.height = 60;
+  CameraSetup setup = smallCamera("sag");
   setup.density_kg_m3 = 80.0;
   setup.noise.wrench.bias_n = {0.0, 1.0, 0.0};
-  VirtualCamera camera = makeCamera(setup);
-  const std::string path = testing::TempDir() + "wrench.bag";
-  writeBag(&camera, {path, 3, 0.5}, [](int) {});  // at 0, 2 and 4 s
-  rosbag::Bag bag(path);
-  std::vector<geometry_msgs::WrenchStampedConstPtr> sensed, truth;
-  for (const rosbag::MessageInstance& m : rosbag::View(bag)) {
-    if (m.getTopic() == "/wrench/clamp") sensed.push_back(m.instantiate<geometry_msgs::WrenchStamped>());
-    if (m.getTopic() == "/ground_truth/wrench/clamp")
-      truth.push_back(m.instantiate<geometry_msgs::WrenchStamped>());
-    if (m.getTopic() == "/ground_truth/material") {
-      EXPECT_NE(m.instantiate<std_msgs::String>()->data.find("density_kg_m3: 80\n"), std::string::npos);
-    }
-  }
+  const rosbag::Bag bag(write("wrench.bag", setup, {"", 3, 0.5}));  // at 0, 2 and 4 s
+  const auto sensed = messagesOf<geometry_msgs::WrenchStamped>(bag, "/wrench/clamp"),
+             truth = messagesOf<geometry_msgs::WrenchStamped>(bag, "/ground_truth/wrench/clamp");
+  const auto material = messagesOf<std_msgs::String>(bag, "/ground_truth/material");
+  ASSERT_FALSE(material.empty());
+  EXPECT_TRUE(says(material.front()->data, "density_kg_m3: 80\n"));
   ASSERT_EQ(truth.size(), 3u);
   ASSERT_EQ(sensed.size(), 3u);
   EXPECT_EQ(truth[2]->header.frame_id, "clamp");
@@ -198,49 +178,34 @@ TEST(BagWriter, WritesWhatASensorAtTheClampSaysAndTheTruthAboutIt) {
   EXPECT_NE(sensed[1]->wrench.force.z, truth[1]->wrench.force.z);
   // The world is known, because the body has weight: z of the clamp is up.
   std::map<std::string, std::string> parents;
-  for (const rosbag::MessageInstance& m :
-       rosbag::View(bag, rosbag::TopicQuery(std::vector<std::string>{"/tf", "/tf_static"}))) {
-    const auto message = m.instantiate<tf2_msgs::TFMessage>();
-    for (const auto& transform : message->transforms)
-      parents[transform.child_frame_id] = transform.header.frame_id;
+  for (const char* topic : {"/tf_static", "/tf"}) {
+    for (const auto& message : messagesOf<tf2_msgs::TFMessage>(bag, topic)) {
+      for (const auto& transform : message->transforms)
+        parents[transform.child_frame_id] = transform.header.frame_id;
+    }
   }
   EXPECT_EQ(parents["camera_link"], "world");
   EXPECT_EQ(parents["clamp"], "camera_color_optical_frame");
 }
 
 TEST(BagWriter, WritesWideImagesAtSixtyHertz) {
-  CameraSetup setup;
-  setup.scene = "shake";
-  setup.config_folder = CONFIG_DIR;
-  setup.width = 848;
+  CameraSetup setup = smallCamera("shake", 848, 480);
   setup.rate_hz = 60.0;
-  VirtualCamera camera = makeCamera(setup);
-  const std::string path = testing::TempDir() + "wide.bag";
-  writeBag(&camera, {path, 4, 60.0}, [](int) {});
-  rosbag::Bag bag(path);
+  const rosbag::Bag bag(write("wide.bag", setup, {"", 4, 60.0}));
   ros::Time last;
-  for (const rosbag::MessageInstance& m : rosbag::View(bag, rosbag::TopicQuery("/camera/color/image_raw"))) {
-    const auto image = m.instantiate<sensor_msgs::Image>();
+  for (const auto& image : messagesOf<sensor_msgs::Image>(bag, "/camera/color/image_raw")) {
     EXPECT_EQ(image->width, 848u);
     EXPECT_EQ(image->height, 480u);
     if (!last.isZero()) {
-      EXPECT_NEAR((m.getTime() - last).toSec(), 1.0 / 60.0, 1e-8);
+      EXPECT_NEAR((image->header.stamp - last).toSec(), 1.0 / 60.0, 1e-8);
     }
-    last = m.getTime();
+    last = image->header.stamp;
   }
-  EXPECT_EQ(camera.pinhole().cx, 424.0);
+  EXPECT_EQ(makeCamera(setup).pinhole().cx, 424.0);
 }
 
 TEST(BagWriter, TheTruthsTopologyHasTheStampOfTheFirstStateOfItsRevision) {
-  CameraSetup setup;
-  setup.scene = "cut";
-  setup.config_folder = CONFIG_DIR;
-  setup.width = 80;
-  setup.height = 60;
-  VirtualCamera camera = makeCamera(setup);
-  const std::string path = testing::TempDir() + "cut.bag";
-  writeBag(&camera, {path, 30, 10.0}, [](int) {});
-  rosbag::Bag bag(path);
+  const rosbag::Bag bag(write("cut.bag", smallCamera("cut"), {"", 30, 10.0}));
   std::map<std::uint32_t, std::size_t> vertices;
   std::map<std::uint32_t, ros::Time> topology_stamps, state_stamps;  // the earliest
   std::map<std::uint32_t, ros::Time> cut_stamps;
@@ -269,8 +234,8 @@ TEST(BagWriter, TheTruthsTopologyHasTheStampOfTheFirstStateOfItsRevision) {
 
 TEST(BagWriter, TheTruthIsTheMeshFileVertexByVertex) {
   rosbag::Bag bag(write("truth.bag", 1));
-  rosbag::View view(bag, rosbag::TopicQuery("/ground_truth/surface/topology"));
-  const MeshTopology topology = fromMessage(*view.begin()->instantiate<softbody_msgs::MeshTopology>());
+  const MeshTopology topology =
+      fromMessage(*messagesOf<softbody_msgs::MeshTopology>(bag, "/ground_truth/surface/topology").front());
   std::ifstream file(std::string(CONFIG_DIR) + "/sponge.obj");
   Eigen::Index i = 0;
   for (std::string line; std::getline(file, line);) {
@@ -286,17 +251,13 @@ TEST(BagWriter, TheTruthIsTheMeshFileVertexByVertex) {
 }
 
 TEST(BagWriter, LeavesAnEarlierFileAloneOnFailure) {
-  const std::string path = write("kept.bag", 1), before = bytes(path);
-  CameraSetup setup;
-  setup.body = std::string(CONFIG_DIR) + "/sponge.obj";
-  setup.width = 80;
-  setup.height = 60;
-  VirtualCamera camera = makeCamera(setup);
+  const std::string path = write("kept.bag", 1), before = readFile(path);
+  VirtualCamera camera = makeCamera(smallCamera());
   const auto interrupt = [](int frame) {
     if (frame == 3) throw std::runtime_error("stop");
   };
   EXPECT_THROW(writeBag(&camera, {path, 10, 30.0}, interrupt), std::runtime_error);
-  EXPECT_TRUE(bytes(path) == before);
+  EXPECT_TRUE(readFile(path) == before);
 }
 
 }  // namespace

@@ -46,8 +46,7 @@ ToRest lengthened(double along) {
 
 /// Distances of a hand's vertices from the sponge, in the sponge's rest shape.
 std::vector<double> handDistances(const Scene& scene, double t, std::size_t hand, const ToRest& to_rest) {
-  const SceneState state = scene.state(t);
-  const Points places = transformed(state.T_camera_body.inverse(), state.vertices.at(hand));
+  const Points places = inBodyFrame(scene, t, hand);
   std::vector<double> distances;
   for (Eigen::Index i = 0; i < places.rows(); ++i)
     distances.push_back(distanceFromSponge(to_rest(places.row(i).transpose())));
@@ -105,8 +104,7 @@ TEST(Gripper, HoldsTheEndWhileItIsClosedAndOnlyThen) {
 
 TEST(Hands, ThumbAndFingersTouchOppositeSides) {
   const Scene scene = handScene("touch");
-  const SceneState state = scene.state(1.5);
-  const Points places = transformed(state.T_camera_body.inverse(), state.vertices.at(3));
+  const Points places = inBodyFrame(scene, 1.5, 3);
   double over = 1.0, under = 1.0;
   for (Eigen::Index i = 0; i < places.rows(); ++i) {
     if (places(i, 0) > 0.095) continue;
@@ -119,12 +117,8 @@ TEST(Hands, ThumbAndFingersTouchOppositeSides) {
 
 TEST(Hands, MoveAndTurnWithTheEndThatTheyHold) {
   const Scene scene = handScene("touch");
-  const auto bodyPlaces = [&](double t, std::size_t actor) {
-    const SceneState state = scene.state(t);
-    return transformed(state.T_camera_body.inverse(), state.vertices.at(actor));
-  };
-  const Points rest = bodyPlaces(1.5, 0), bent = bodyPlaces(2.5, 0);
-  const Points arm = bodyPlaces(1.5, 3), bent_arm = bodyPlaces(2.5, 3);
+  const Points rest = inBodyFrame(scene, 1.5), bent = inBodyFrame(scene, 2.5);
+  const Points arm = inBodyFrame(scene, 1.5, 3), bent_arm = inBodyFrame(scene, 2.5, 3);
   Eigen::Index end = 0, fixed = 0, elbow = 0;
   rest.col(0).maxCoeff(&end);
   rest.col(0).minCoeff(&fixed);

@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
-#include <map>
 
 #include "camera/camera_motion.h"
 #include "fixtures/scene_fixtures.h"
@@ -12,17 +11,6 @@ namespace softbody::virtual_camera {
 namespace {
 
 const Pinhole kSolidCamera = d435(640, 480);
-
-const Scene& solidScene(const std::string& name) {
-  static std::map<std::string, Scene> made;
-  if (made.count(name) == 0) made[name] = makeScene(name, shippedBody(objectOf(name)), 1);
-  return made[name];
-}
-
-Points inBodyFrame(const Scene& scene, double t, std::size_t actor = 0) {
-  const SceneState state = scene.state(t);
-  return transformed(state.T_camera_body.inverse(), state.vertices.at(actor));
-}
 
 /// Forces in the body's frame, whose z axis is up.
 std::vector<SurfaceForce> forcesAt(const Scene& scene, double t) {
@@ -47,7 +35,7 @@ double distortionOf(const Points& rest, const Points& moved, double outward, dou
 
 TEST(Grip, TheEndsMoveAsRigidBodiesWithTheFists) {
   for (const char* name : {"grip", "doll_grip"}) {
-    const Scene& scene = solidScene(name);
+    const Scene& scene = madeScene(name);
     ASSERT_EQ(scene.hands, 2u);
     const Points &rest = scene.actors[0].rest.vertices, start = inBodyFrame(scene, 1.25);
     for (const double t : {1.7, 2.33, 2.81, 3.4, 4.02, 4.55, 5.2}) {
@@ -68,7 +56,7 @@ TEST(Grip, TheEndsMoveAsRigidBodiesWithTheFists) {
 }
 
 TEST(Grip, BendsTwistsAndStretchesTheBodyInTheAir) {
-  const Scene& scene = solidScene("grip");
+  const Scene& scene = madeScene("grip");
   const Points rest = inBodyFrame(scene, 0.0);
   Eigen::Index left = 0, right = 0, side = 0;
   (rest * Eigen::Vector3d(-1.0, 0.1, 0.1)).maxCoeff(&left);
@@ -91,7 +79,7 @@ TEST(Grip, BendsTwistsAndStretchesTheBodyInTheAir) {
 
 TEST(Grip, TheFistsHideBothEnds) {
   for (const char* name : {"grip", "doll_grip"}) {
-    const Scene& scene = solidScene(name);
+    const Scene& scene = madeScene(name);
     const Points& rest = scene.actors[0].rest.vertices;
     Renderer renderer(scene, kSolidCamera);
     RenderedImage image;
@@ -111,7 +99,7 @@ TEST(Grip, TheFistsHideBothEnds) {
 
 TEST(Stamp, ForcesAreKnownAndInBalance) {
   for (const char* name : {"stamp", "doll_stamp"}) {
-    const Scene& scene = solidScene(name);
+    const Scene& scene = madeScene(name);
     for (const double t : {0.0, 1.4, 3.8, 5.0}) EXPECT_TRUE(forcesAt(scene, t).empty()) << name;
     const double largest = -forcesAt(scene, 2.5).at(0).force.z();
     for (const double t : {1.8, 2.1, 2.5, 3.1}) {
@@ -132,7 +120,7 @@ TEST(Stamp, ForcesAreKnownAndInBalance) {
 
 TEST(Stamp, LiesOnTheBodyThatItPresses) {
   for (const char* name : {"stamp", "doll_stamp"}) {
-    const Scene& scene = solidScene(name);
+    const Scene& scene = madeScene(name);
     for (const double t : {1.5, 2.0, 2.5, 3.0}) {
       const Points body = inBodyFrame(scene, t), disc = inBodyFrame(scene, t, 3);
       const double low = disc.col(2).minCoeff(), top = low + 0.02;
@@ -152,7 +140,7 @@ TEST(Stamp, LiesOnTheBodyThatItPresses) {
 
 TEST(Stamp, IsRepeatable) {
   const Scene again = makeScene("stamp", shippedBody("sponge"), 1);
-  EXPECT_EQ(again.state(2.2).vertices, solidScene("stamp").state(2.2).vertices);
+  EXPECT_EQ(again.state(2.2).vertices, madeScene("stamp").state(2.2).vertices);
 }
 
 TEST(Stamp, AStifferAndLargerBodyIsPressedHarderIntoTheSameShape) {
@@ -160,17 +148,17 @@ TEST(Stamp, AStifferAndLargerBodyIsPressedHarderIntoTheSameShape) {
   large.rest.vertices *= 2.0;
   large.elasticity.youngs_modulus_pa *= 3.0;
   const Scene scene = makeScene("stamp", large, 1);
-  const SurfaceForce usual = forcesAt(solidScene("stamp"), 2.5)[0], found = forcesAt(scene, 2.5)[0];
+  const SurfaceForce usual = forcesAt(madeScene("stamp"), 2.5)[0], found = forcesAt(scene, 2.5)[0];
   EXPECT_NEAR(found.force.z() / usual.force.z(), 12.0, 1e-3);
   EXPECT_LT((found.place - 2.0 * usual.place).norm(), 1e-3);
-  EXPECT_LT((inBodyFrame(scene, 2.5) - 2.0 * inBodyFrame(solidScene("stamp"), 2.5)).cwiseAbs().maxCoeff(),
+  EXPECT_LT((inBodyFrame(scene, 2.5) - 2.0 * inBodyFrame(madeScene("stamp"), 2.5)).cwiseAbs().maxCoeff(),
             1e-6);
 }
 
 TEST(Stamp, WithAMovingCameraForcesAreInTheWorld) {
-  VirtualCamera camera(withCameraMotion("orbit", solidScene("stamp")), kSolidCamera, noNoise(), 1);
+  VirtualCamera camera(withCameraMotion("orbit", madeScene("stamp")), kSolidCamera, noNoise(), 1);
   const Capture capture = camera.capture(75, 2.5);
-  const SurfaceForce expected = forcesAt(solidScene("stamp"), 2.5)[0];
+  const SurfaceForce expected = forcesAt(madeScene("stamp"), 2.5)[0];
   ASSERT_TRUE(capture.forces);
   EXPECT_NEAR(capture.forces->at(0).force.z(), expected.force.z(), 1e-9);
   EXPECT_GT(capture.forces->at(0).place.z(), 0.03);

@@ -137,9 +137,9 @@ TEST(SurfaceCut, TorusOpenedAndParted) {
   EXPECT_EQ(pieceVolumes(parted.mesh).size(), 2u);
 }
 
-TEST(SurfaceCut, RandomCutsOfSponge) { cutAtRandom(loadMesh(kShipped + "sponge.obj"), numberOfCuts(240), 1); }
+TEST(SurfaceCut, RandomCutsOfSponge) { cutAtRandom(loadMesh(kShipped + "sponge.obj"), numberOfCuts(90), 1); }
 
-TEST(SurfaceCut, RandomCutsOfTorus) { cutAtRandom(torusSurface(), numberOfCuts(240), 2); }
+TEST(SurfaceCut, RandomCutsOfTorus) { cutAtRandom(torusSurface(), numberOfCuts(90), 2); }
 
 TEST(SurfaceCut, RandomCutsOfSpot) { cutAtRandom(loadMesh(test::testData("spot.obj")), numberOfCuts(60), 3); }
 
