@@ -1,12 +1,12 @@
 #include <dynamic_reconfigure/Config.h>
 #include <dynamic_reconfigure/Reconfigure.h>
+#include <gtest/gtest.h>
 #include <ros/ros.h>
 #include <softbody_msgs/CutBody.h>
 #include <softbody_msgs/MeshState.h>
 #include <softbody_msgs/PreviewCut.h>
 #include <softbody_msgs/TetTopology.h>
 #include <std_srvs/Trigger.h>
-#include <test_support/gtest.h>
 
 #include <QApplication>
 #include <QComboBox>

@@ -23,7 +23,7 @@ struct TwoBoxes {
   const Eigen::Index count = topology.rest_vertices.rows();
   const Eigen::VectorXd masses = Eigen::VectorXd::Constant(count, 1e-3);
   const TetMaterials materials = tetMaterials(topology, Material(), 0.7, std::nullopt);
-  LoadEstimator estimator{topology, materials, masses, {0.3, 4000.0, 0.001}};
+  LoadEstimator estimator{topology, materials, masses, {0.3, 4000.0}};
   LoadEstimate loads{Points::Zero(count, 3)};
 
   /// Targets that are off by up to 5 mm. @param first, @param last vertices.

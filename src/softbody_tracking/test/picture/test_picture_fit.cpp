@@ -8,15 +8,13 @@
 namespace softbody {
 namespace {
 
-constexpr double kScale_m = 0.02;
-
 struct Painted {
   explicit Painted(const Paint& paint)
       : body(paint),
         mesh{body.box.surface.rest_vertices, body.box.surface.triangles},
         baked(body.picture, mesh, body.box.surface.texture_coordinates, 0.0014) {}
   PictureFit fit(const RgbdFrame& frame, const Eigen::Isometry3d& pose) const {
-    return pictureFit(colorPatches(colorFrame(frame), mesh, baked, pose, kScale_m));
+    return pictureFit(colorPatches(colorFrame(frame), mesh, baked, pose));
   }
   PaintedBox body;
   TriangleMesh mesh;

@@ -1,8 +1,10 @@
 #include "fuzz/messages/fuzz_run.h"
 
+#include <execinfo.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <csignal>
@@ -48,6 +50,8 @@ class LastWords {
  private:
   static void say(int signal) {
     if (write(STDERR_FILENO, text, length) < 0) _exit(1);
+    std::array<void*, 64> frames{};  // of the thread that failed, also of one with an exception
+    backtrace_symbols_fd(frames.data(), backtrace(frames.data(), static_cast<int>(frames.size())), STDERR_FILENO);
     std::signal(signal, SIG_DFL);
     std::raise(signal);
   }

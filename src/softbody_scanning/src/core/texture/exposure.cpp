@@ -99,7 +99,7 @@ void reweigh(const Eigen::VectorXd& gains, std::vector<Overlap>* overlaps) {
       sizes.push_back(std::abs(overlap.logs[i] - gains[overlap.frames[i]] - own));
   }
   if (sizes.empty()) return;
-  const double scale = 2.0 * kMedianToSigma * medianOf(std::move(sizes)) + 1e-4;
+  const double scale = 2.0 * medianOf(std::move(sizes)) / kMedianPerSigma + 1e-4;
   for (Overlap& overlap : *overlaps) {
     const double own = overlap.own(gains);
     for (std::size_t i = 0; i < overlap.frames.size(); ++i) {

@@ -36,7 +36,7 @@ Agreement medianAgreement(const std::vector<TriangleView>& views) {
     for (std::size_t i = 0; i < views.size(); ++i) values[i] = views[i].color[k];
     start.mean[k] = medianOf(values);
     for (double& value : values) value = std::abs(value - start.mean[k]);
-    const double sigma = kMedianToSigma * medianOf(values);
+    const double sigma = medianOf(values) / kMedianPerSigma;
     start.inverse(k, k) = 1.0 / (sigma * sigma + kNoise * kNoise);
   }
   return start;

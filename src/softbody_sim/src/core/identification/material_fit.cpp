@@ -91,7 +91,7 @@ void MaterialFit::setWeights() {
   for (std::size_t g = 0; g < usual.size(); ++g) {
     if (absolute[g].empty()) continue;
     const bool is_wrench = g + 1 == usual.size();  // its stated deviation is at least its noise
-    usual[g] = std::max(is_wrench ? 1.0 : kLeastNoise, kMedianToSigma * medianOf(std::move(absolute[g])));
+    usual[g] = std::max(is_wrench ? 1.0 : kLeastNoise, medianOf(std::move(absolute[g])) / kMedianPerSigma);
   }
   weights_.resize(residuals_.size());
   for (std::size_t k = 0; k < places.size(); ++k) {
