@@ -101,8 +101,8 @@ TEST(KnownSurface, ASearchDoesNotSeeIt) {
   EXPECT_EQ(cv::countNonZero((searched.depth > 0.0f) & (frame.known > 0.0f)), 0);
   EXPECT_EQ(cv::countNonZero(frame.depth != frameOf({known}).depth), 0) << "the frame itself keeps its depth";
   const TriangleMesh body = boxAt(Eigen::Isometry3d::Identity());
-  EXPECT_GT(confinement(frame, body, at(0.0, 0.0, 0.6), 0.02), 0.9);
-  EXPECT_LT(confinement(searched, body, at(0.0, 0.0, 0.6), 0.02), 0.1) << "nothing of it is seen";
+  EXPECT_GT(confinement(frame, body, at(0.0, 0.0, 0.6)), 0.9);
+  EXPECT_LT(confinement(searched, body, at(0.0, 0.0, 0.6)), 0.1) << "nothing of it is seen";
 }
 
 TEST(KnownSurface, ATriangleWithoutItsVertexIsRefused) {

@@ -27,7 +27,7 @@ struct FlatSurface {
       cells.cells.push_back(cell);
     }
   }
-  void tell(double error_m = 0.0) { tellOccluders(samples, {kNone, kFocal, 0.04, error_m, 24}, &cells); }
+  void tell(double error_m = 0.0) { tellOccluders(samples, {kNone, kFocal, error_m, 24}, &cells); }
   void setDifference(const cv::Rect& places, float difference_m) {
     for (int y = places.y; y < places.br().y; ++y)
       for (int x = places.x; x < places.br().x; ++x) cells.at({x, y}).difference = difference_m;

@@ -87,9 +87,9 @@ TEST(SearchByPicture, TakesTheTurnThatARoughPoseAllows) {
   const RgbdFrame frame = rich.frameAt(truth);
   for (const Eigen::Isometry3d& turn : alikeTurns()) {
     RoughPose rough{truth * turn, 0.03, 1.2};
-    EXPECT_LT(turnBetween(searchNearPose(frame, meshes, rough, {}).pose, truth), 0.1);
+    EXPECT_LT(turnBetween(searchNearPose(frame, meshes, rough).pose, truth), 0.1);
     rough.std_rad = 0.26;
-    EXPECT_LT(turnBetween(searchNearPose(frame, meshes, rough, {}).pose, rough.pose), 0.1);
+    EXPECT_LT(turnBetween(searchNearPose(frame, meshes, rough).pose, rough.pose), 0.1);
   }
 }
 
