@@ -42,6 +42,7 @@ struct FollowedTet {
     for (const double x : {0.002, 0.004, 0.011}) {
       TrackedFeature feature;
       feature.id = static_cast<int>(features.size());
+      feature.pixel.setZero();
       feature.position = feature.reference = {x, 0.0, 0.0};
       features.push_back(feature);
     }

@@ -51,7 +51,8 @@ class LastWords {
   static void say(int signal) {
     if (write(STDERR_FILENO, text, length) < 0) _exit(1);
     std::array<void*, 64> frames{};  // of the thread that failed, also of one with an exception
-    backtrace_symbols_fd(frames.data(), backtrace(frames.data(), static_cast<int>(frames.size())), STDERR_FILENO);
+    backtrace_symbols_fd(frames.data(), backtrace(frames.data(), static_cast<int>(frames.size())),
+                         STDERR_FILENO);
     std::signal(signal, SIG_DFL);
     std::raise(signal);
   }

@@ -56,7 +56,8 @@ std::vector<bool> disagreeing(const std::vector<FrameAgreement>& frames) {
   for (const FrameAgreement& frame : frames) shares.push_back(frame.through);
   const double usual = medianOf(shares);
   for (const double share : shares) deviations.push_back(std::abs(share - usual));
-  const double limit = std::max(kSurelyRight, usual + kUnusualSigmas * medianOf(deviations) / kMedianPerSigma);
+  const double limit =
+      std::max(kSurelyRight, usual + kUnusualSigmas * medianOf(deviations) / kMedianPerSigma);
   std::vector<bool> unusual;
   for (const double share : shares) unusual.push_back(share > limit);
   return unusual;

@@ -32,8 +32,8 @@ struct SimulatorConfig {
   double max_time_step_s = 0.1;  ///< longer gaps between frames are simulated as a step of this length
   /// [m/s^2], in the frame of the targets. Zero: the rest shape already contains the effect of gravity.
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();
-  bool self_contact = false;     ///< the body touches itself, in steps without targets
-  double self_friction = 0.0;    ///< coefficient of Coulomb friction of the body on itself
+  bool self_contact = false;   ///< the body touches itself, in steps without targets
+  double self_friction = 0.0;  ///< coefficient of Coulomb friction of the body on itself
 };
 
 /// Maximum of weight times target_stiffness, in units of E * mean edge length. With stiffer targets, the

@@ -12,7 +12,7 @@
 #include "dynamics/external_forces.h"
 #include "dynamics/simulator_implementation.h"
 #include "dynamics/target_validation.h"
-#include "estimation/vertex_deviation.h"
+#include "estimation/standard_deviation.h"
 #include "softbody_common/geometry/tet_geometry.h"
 #include "softbody_common/time/time.h"
 #include "softbody_common/time/timeline.h"
@@ -91,7 +91,7 @@ void Simulator::Implementation::estimate(const std::vector<Target>& targets, con
       elapsed_s, &loads);
   if (elapsed_s > 0.0) next.loads = std::move(loads);
   if (posterior)
-    vertexDeviations(targets, model->topology.tets, vertices, *posterior, &next.mesh.standard_deviation);
+    standardDeviations(targets, model->topology.tets, vertices, *posterior, &next.mesh.standard_deviation);
 }
 
 Simulator::Simulator(const TetTopology& topology, const Material& material, const SimulatorConfig& config)

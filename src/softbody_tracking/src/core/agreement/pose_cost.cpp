@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "softbody_common/geometry/rigid_fit.h"
-#include "softbody_common/statistics/median.h"
 #include "softbody_common/geometry/tet_geometry.h"
+#include "softbody_common/statistics/median.h"
 
 namespace softbody {
 namespace {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "softbody_common/statistics/median.h"
 #include "softbody_common/protocol/target_limits.h"
+#include "softbody_common/statistics/median.h"
 
 namespace softbody {
 namespace {

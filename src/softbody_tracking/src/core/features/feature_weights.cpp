@@ -4,7 +4,6 @@
 
 #include "softbody_common/statistics/median.h"
 
-
 namespace softbody {
 namespace {
 

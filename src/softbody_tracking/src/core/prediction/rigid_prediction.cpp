@@ -98,7 +98,8 @@ Points RigidPrediction::at(Nanoseconds stamp, const std::vector<MotionShare>& kn
       const Velocity velocity = p < known.size() ? velocities_[p].knownPart(known[p]) : velocities_[p];
       const Eigen::Vector3d center = last_->poses[p] * restCenter(p);
       const Eigen::Isometry3d motion = Eigen::Translation3d(center + ahead_s * velocity.linear) *
-                                       quaternionOf(ahead_s * velocity.angular) * Eigen::Translation3d(-center);
+                                       quaternionOf(ahead_s * velocity.angular) *
+                                       Eigen::Translation3d(-center);
       poses[p] = motion * poses[p];
       for (const int v : pieces_[p]) vertices.row(v) = motion * Eigen::Vector3d(last_->vertices.row(v));
     }

@@ -18,8 +18,8 @@
 #include "softbody_common/protocol/tracking_state.h"
 #include "softbody_common/time/time.h"
 #include "status/disagreement.h"
+#include "tracker/body_search.h"
 #include "tracker/frame_observer.h"
-#include "tracker/relocalizer.h"
 #include "tracker/tracking_status.h"
 #include "tracker/tracking_targets.h"
 
@@ -58,7 +58,7 @@ std::vector<Association> associationsOf(const Observation& seen) {
 
 struct BodyTracker::Implementation {
   Implementation(const TrackerConfig& tracker_config, const cv::Mat3b& picture)
-      : config(tracker_config), relocalizer(config.registration, picture) {}
+      : config(tracker_config), search(config.registration, picture) {}
 
   TrackingResult track(const RgbdFrame& frame, const MeshState* volume, StageTimer* timer,
                        const UseTargets& use);
@@ -80,7 +80,7 @@ struct BodyTracker::Implementation {
   TrackingResult waiting(const std::string& reason, const UseTargets& use) const;
 
   TrackerConfig config;
-  Relocalizer relocalizer;
+  BodySearch search;
   std::unique_ptr<FrameObserver> observer;
   std::unique_ptr<RigidPrediction> prediction;
   std::vector<MaterialPoint> places;  ///< vertexPlaces() of the model
@@ -130,19 +130,19 @@ bool BodyTracker::isEdit(const TetTopology& volume, const MeshTopology& surface)
   return implementation_->isEdit(volume, surface);
 }
 
-void BodyTracker::setPicture(const cv::Mat3b& picture) { implementation_->relocalizer.setPicture(picture); }
+void BodyTracker::setPicture(const cv::Mat3b& picture) { implementation_->search.setPicture(picture); }
 
 void BodyTracker::reset() { implementation_->reset(); }
 
 void BodyTracker::restart(const Eigen::Isometry3d& rough_pose) {
   if (!ready()) throw std::logic_error("the topologies of simulator and surface have not come yet");
   implementation_->reset();
-  implementation_->relocalizer.startNear(rough_pose);
+  implementation_->search.startNear(rough_pose);
 }
 
 void BodyTracker::placeAt(const Eigen::Isometry3d& pose) {
   restart(pose);
-  implementation_->relocalizer.placeAt(pose);
+  implementation_->search.placeAt(pose);
 }
 
 TrackingResult BodyTracker::track(const RgbdFrame& frame, const MeshState* volume, StageTimer* timer,
@@ -158,10 +158,10 @@ TrackingResult BodyTracker::Implementation::track(const RgbdFrame& frame, const 
   if (frame.pass != pass || frame.stamp < stamp) reset();
   pass = frame.pass;
   stamp = frame.stamp;
-  const Relocalizer::Outcome outcome = relocalizer.locate(frame, observer.get(), timer);
-  if (outcome == Relocalizer::Outcome::kNotFound) return waiting(whyNotFound(relocalizer.report()), use);
-  const bool just_found = outcome != Relocalizer::Outcome::kTracked;
-  if (just_found) forgetMotion(outcome == Relocalizer::Outcome::kFound);
+  const BodySearch::Outcome outcome = search.locate(frame, observer.get(), timer);
+  if (outcome == BodySearch::Outcome::kNotFound) return waiting(whyNotFound(search.report()), use);
+  const bool just_found = outcome != BodySearch::Outcome::kTracked;
+  if (just_found) forgetMotion(outcome == BodySearch::Outcome::kFound);
 
   const auto scope = timer->stage("Feature-Point Tracking", just_found);
   const Eigen::Isometry3d T_camera_fixed = frame.T_fixed_camera.inverse();
@@ -170,7 +170,7 @@ TrackingResult BodyTracker::Implementation::track(const RgbdFrame& frame, const 
   const Points predicted = transformed(predict(frame, answer), T_camera_fixed);
   const ObservedBody observed = observer->observe(frame, predicted);
   const auto& [seen, surface, image, labels] = observed;
-  relocalizer.setPose(frame.T_fixed_camera * fitRigid(model().rest_vertices, surface.volumeVertices()));
+  search.setPose(frame.T_fixed_camera * fitRigid(model().rest_vertices, surface.volumeVertices()));
   const std::vector<Association> associations = associationsOf(seen);
   measured = measuredShares(associations, surface.pieceVertices(), frame.T_fixed_camera.linear());
 
@@ -178,7 +178,7 @@ TrackingResult BodyTracker::Implementation::track(const RgbdFrame& frame, const 
   result.has_targets = true;
   result.status = judge(frame, observed, associations, answer);
   const TrackingState state = result.status.state;
-  relocalizer.noteLoss(state == TrackingState::kLost, stamp);
+  search.noteLoss(state == TrackingState::kLost, stamp);
   if (state == TrackingState::kLost) prediction->reset();
   result.targets =
       targetSetOf(frame, observed, associations, state == TrackingState::kLost ? nullptr : answer);
@@ -203,10 +203,10 @@ void BodyTracker::Implementation::setTopologies(const TetTopology& volume, const
   const bool edited = isEdit(volume, surface);
   if (edited) {
     observer->setTopologies(volume, surface);
-    relocalizer.forgetMeshes();
+    search.forgetMeshes();
   } else {
     observer = std::make_unique<FrameObserver>(config, volume, surface);
-    relocalizer.prepareMeshes(surface);
+    search.prepareMeshes(surface);
   }
   prediction = std::make_unique<RigidPrediction>(volume.rest_vertices, observer->model().pieces());
   places = vertexPlaces(volume);
@@ -231,7 +231,7 @@ bool BodyTracker::Implementation::hasTopologies(const TetTopology& volume,
 }
 
 void BodyTracker::Implementation::reset() {
-  relocalizer.reset();
+  search.reset();
   if (observer != nullptr) observer->reset();
   if (prediction != nullptr) prediction->reset();
   last_answer = 0;
@@ -250,27 +250,27 @@ void BodyTracker::Implementation::forgetMotion(bool searched) {
 /// Whether a state of the volume answers targets that were sent since the body was found. A state far from
 /// the tracked pose does not: targets with reset bring that body back.
 bool BodyTracker::Implementation::isAnswer(const MeshState* volume) const {
-  return volume != nullptr && volume->observed >= relocalizer.foundAt() && volume->observed <= stamp &&
+  return volume != nullptr && volume->observed >= search.foundAt() && volume->observed <= stamp &&
          volume->revision == model().revision &&
-         isWithinReach(volume->vertices, transformed(model().rest_vertices, relocalizer.pose()),
+         isWithinReach(volume->vertices, transformed(model().rest_vertices, search.pose()),
                        reachOf(model().rest_vertices));
 }
 
 /// The volume's vertices at the frame's stamp, fixed frame. @param answer nullptr without one.
 Points BodyTracker::Implementation::predict(const RgbdFrame& frame, const MeshState* answer) {
-  if (answer == nullptr) return transformed(model().rest_vertices, relocalizer.pose());
+  if (answer == nullptr) return transformed(model().rest_vertices, search.pose());
   prediction->observe(answer->vertices, answer->observed);
   return prediction->at(frame.stamp, measured);
 }
 
 TrackingResult BodyTracker::Implementation::waiting(const std::string& reason, const UseTargets& use) const {
   TrackingResult result;
-  const bool recovering = relocalizer.recovering();
+  const bool recovering = search.recovering();
   result.status.state = recovering ? TrackingState::kRecovering : TrackingState::kInitializing;
   result.status.reason = reason;
   // A lost body is simulated without targets.
   result.has_targets = recovering;
-  result.targets.body_pose = relocalizer.pose();
+  result.targets.body_pose = search.pose();
   if (observer != nullptr) result.targets.revision = model().revision;
   if (result.has_targets && use) use(result.targets);
   return result;
@@ -286,9 +286,9 @@ TrackingStatus BodyTracker::Implementation::judge(const RgbdFrame& frame, const 
   const ShownError error{disagreement.add(largestDisagreement(compared), stamp),
                          medianBound(associations, model(), deviations), imageScale(labels, surface)};
   TrackingStatus status = statusOf(seen, associations, error, config.status_tolerance_m);
-  if (status.state == TrackingState::kTracking && relocalizer.alike() > 1) {
+  if (status.state == TrackingState::kTracking && search.alike() > 1) {
     const std::string other = status.reason;
-    status.reason = alikeReason(relocalizer.alike());
+    status.reason = alikeReason(search.alike());
     if (!other.empty()) status.reason += "; " + other;
   }
   return withSilence(std::move(status));
@@ -296,7 +296,7 @@ TrackingStatus BodyTracker::Implementation::judge(const RgbdFrame& frame, const 
 
 /// Without states of the simulator the prediction is a guess, however well the frame agrees with it.
 TrackingStatus BodyTracker::Implementation::withSilence(TrackingStatus status) const {
-  const Nanoseconds silence = stamp - std::max(last_answer, relocalizer.foundAt());
+  const Nanoseconds silence = stamp - std::max(last_answer, search.foundAt());
   if (silence <= kLongestSilence || status.state == TrackingState::kLost) return status;
   const std::string reason = fmt::format(
       "no state from the simulator for {:.1f} s: it is not running, or too slow", seconds(silence));
@@ -312,7 +312,7 @@ TargetSet BodyTracker::Implementation::targetSetOf(const RgbdFrame& frame, const
                                                    const MeshState* answer) const {
   TargetSet set;
   set.revision = model().revision;
-  set.body_pose = relocalizer.pose();
+  set.body_pose = search.pose();
   set.targets = targetsOf(associations, frame.T_fixed_camera);
   if (answer == nullptr) return set;
   const PredictedSurface& surface = observed.surface;

@@ -22,7 +22,7 @@ namespace softbody {
 /// At the start: near the pose of the object's file or of the user; anywhere only without one, or if `search`
 /// says so. After a loss: where features are recognised, then anywhere; but far from the last place features
 /// must confirm the pose.
-class Relocalizer {
+class BodySearch {
  public:
   enum class Outcome {
     kNotFound,
@@ -32,7 +32,7 @@ class Relocalizer {
   };
 
   /// @param picture of the body: blue, green, red; empty: not known.
-  Relocalizer(const RegistrationConfig& config, cv::Mat3b picture)
+  BodySearch(const RegistrationConfig& config, cv::Mat3b picture)
       : config_(config), picture_(std::move(picture)) {}
 
   /// Of another body; its meshes follow. Empty: not known.

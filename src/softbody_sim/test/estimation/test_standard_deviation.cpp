@@ -1,4 +1,4 @@
-#include "estimation/vertex_deviation.h"
+#include "estimation/standard_deviation.h"
 
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ class EstimatedBody {
     elasticity_.addTo(vertices, &balancing);
     const auto posterior = estimator_.update(targets, pins, vertices, balancing, 1.0 / 30.0, &loads);
     std::vector<float> result;
-    vertexDeviations(targets, topology_.tets, vertices, posterior.value(), &result);
+    standardDeviations(targets, topology_.tets, vertices, posterior.value(), &result);
     return result;
   }
 
@@ -37,7 +37,7 @@ class EstimatedBody {
   LoadEstimator estimator_{topology_, materials_, masses_, {0.1, 4000.0}};
 };
 
-class VertexDeviationTest : public ::testing::Test {
+class StandardDeviationTest : public ::testing::Test {
  protected:
   /// Targets on the vertices at one end of the sponge (x below 30 mm), where they are.
   std::vector<Target> targetsAtOneEnd(const Points& vertices) const {
@@ -67,7 +67,7 @@ class VertexDeviationTest : public ::testing::Test {
   EstimatedBody body_{topology_};
 };
 
-TEST_F(VertexDeviationTest, IsLargestWithoutTargets) {
+TEST_F(StandardDeviationTest, IsLargestWithoutTargets) {
   const float unmeasured = deviations({}, rest_).front();
   for (const float value : deviations({}, rest_)) EXPECT_EQ(value, unmeasured);
   for (const float value : deviations(targetsAtOneEnd(rest_), rest_)) EXPECT_LT(value, unmeasured);
@@ -75,7 +75,7 @@ TEST_F(VertexDeviationTest, IsLargestWithoutTargets) {
     EXPECT_LT(value, 0.2f * unmeasured);
 }
 
-TEST_F(VertexDeviationTest, GrowsWithTheDistanceFromTheMeasuredEnd) {
+TEST_F(StandardDeviationTest, GrowsWithTheDistanceFromTheMeasuredEnd) {
   const std::vector<float> found = deviations(targetsAtOneEnd(rest_), rest_);
   // Along x the vertices lie in planes, 20 mm apart.
   std::vector<float> smallest(11, 1.0f), largest(11, 0.0f);
@@ -91,7 +91,7 @@ TEST_F(VertexDeviationTest, GrowsWithTheDistanceFromTheMeasuredEnd) {
   }
 }
 
-TEST_F(VertexDeviationTest, GrowsWithTheStrainNotWithTheMotion) {
+TEST_F(StandardDeviationTest, GrowsWithTheStrainNotWithTheMotion) {
   const std::vector<float> still = deviations(targetsAtOneEnd(rest_), rest_);
   const Points moved = transformed(rest_, testing::somePose());
   const std::vector<float> after = deviations(targetsAtOneEnd(moved), moved);
@@ -105,14 +105,14 @@ TEST_F(VertexDeviationTest, GrowsWithTheStrainNotWithTheMotion) {
 }
 
 /// What targets say of a vertex is wrong by at least their distance from it.
-TEST_F(VertexDeviationTest, CoversTheResidualsOfTheTargets) {
+TEST_F(StandardDeviationTest, CoversTheResidualsOfTheTargets) {
   Points beside = rest_;
   beside.col(2).array() += 0.003;
   for (const float value : deviations(testing::vertexTargets(topology_, beside), rest_))
     EXPECT_GE(value, 0.003f);
 }
 
-TEST_F(VertexDeviationTest, ADirectionIsLessThanAPlace) {
+TEST_F(StandardDeviationTest, ADirectionIsLessThanAPlace) {
   std::vector<Target> planes = targetsAtOneEnd(rest_);
   for (Target& target : planes) target.normal = Eigen::Vector3d::UnitZ();
   const std::vector<float> in_plane = deviations(planes, rest_),
@@ -133,14 +133,14 @@ TEST_F(VertexDeviationTest, ADirectionIsLessThanAPlace) {
   for (std::size_t v = 0; v < all.size(); ++v) EXPECT_NEAR(together[v], all[v], 1e-9f);
 }
 
-TEST_F(VertexDeviationTest, PriorsMeasureNothing) {
+TEST_F(StandardDeviationTest, PriorsMeasureNothing) {
   std::vector<Target> priors = testing::vertexTargets(topology_, rest_);
   for (Target& target : priors) target.kind = TargetKind::kPrior;
   EXPECT_EQ(deviations(priors, rest_), deviations({}, rest_));
 }
 
 /// Targets tell where a pinned piece is, though not which loads act on it.
-TEST_F(VertexDeviationTest, APinnedPieceIsMeasuredToo) {
+TEST_F(StandardDeviationTest, APinnedPieceIsMeasuredToo) {
   const std::vector<Target> targets = testing::vertexTargets(topology_, rest_);
   const std::vector<float> none = body_.deviations({}, rest_, {Pin{0}}),
                            free = body_.deviations(targets, rest_),
@@ -151,7 +151,7 @@ TEST_F(VertexDeviationTest, APinnedPieceIsMeasuredToo) {
   }
 }
 
-TEST_F(VertexDeviationTest, PiecesAreMeasuredOnTheirOwn) {
+TEST_F(StandardDeviationTest, PiecesAreMeasuredOnTheirOwn) {
   const TetTopology both = testing::twoBoxes({2, 1, 1}, {0.1, 0.05, 0.05});
   EstimatedBody body(both);
   std::vector<Target> targets = testing::vertexTargets(both, both.rest_vertices);

@@ -1,4 +1,4 @@
-#include "tracker/relocalizer.h"
+#include "tracker/body_search.h"
 
 #include <vector>
 
@@ -17,7 +17,7 @@ constexpr double kWandering = 0.05;
 
 }  // namespace
 
-void Relocalizer::reset() {
+void BodySearch::reset() {
   first_frame_ = true;
   tracked_ = recovering_ = placed_ = false;
   given_.reset();
@@ -27,17 +27,17 @@ void Relocalizer::reset() {
   report_ = {};
 }
 
-void Relocalizer::startNear(const Eigen::Isometry3d& rough_pose) {
+void BodySearch::startNear(const Eigen::Isometry3d& rough_pose) {
   first_frame_ = false;
   given_ = pose_ = rough_pose;
 }
 
-void Relocalizer::placeAt(const Eigen::Isometry3d& pose) {
+void BodySearch::placeAt(const Eigen::Isometry3d& pose) {
   startNear(pose);
   placed_ = true;
 }
 
-Relocalizer::Outcome Relocalizer::locate(const RgbdFrame& frame, FrameObserver* observer, StageTimer* timer) {
+BodySearch::Outcome BodySearch::locate(const RgbdFrame& frame, FrameObserver* observer, StageTimer* timer) {
   if (first_frame_) takeInitialPose(frame, observer->model().volume());
   if (placed_) {
     placed_ = false;
@@ -58,7 +58,7 @@ Relocalizer::Outcome Relocalizer::locate(const RgbdFrame& frame, FrameObserver* 
   return Outcome::kFound;
 }
 
-void Relocalizer::noteLoss(bool lost, Nanoseconds stamp) {
+void BodySearch::noteLoss(bool lost, Nanoseconds stamp) {
   if (!lost) {
     lost_since_.reset();
     last_seen_ = stamp;
@@ -69,22 +69,22 @@ void Relocalizer::noteLoss(bool lost, Nanoseconds stamp) {
 }
 
 /// The pose in the object's file refers to the camera at the start.
-void Relocalizer::takeInitialPose(const RgbdFrame& frame, const TetTopology& volume) {
+void BodySearch::takeInitialPose(const RgbdFrame& frame, const TetTopology& volume) {
   pose_ = frame.T_fixed_camera * volume.initial_pose;
   if (volume.has_initial_pose) given_ = pose_;
   first_frame_ = false;
 }
 
-void Relocalizer::prepareMeshes(const MeshTopology& surface) {
+void BodySearch::prepareMeshes(const MeshTopology& surface) {
   meshes_ = std::make_unique<SearchMeshes>(makeSearchMeshes(surface, picture_));
 }
 
-const SearchMeshes& Relocalizer::meshesOf(const MeshTopology& surface) {
+const SearchMeshes& BodySearch::meshesOf(const MeshTopology& surface) {
   if (meshes_ == nullptr) prepareMeshes(surface);
   return *meshes_;
 }
 
-void Relocalizer::startTracking(const RgbdFrame& frame, const FoundPose& found) {
+void BodySearch::startTracking(const RgbdFrame& frame, const FoundPose& found) {
   pose_ = frame.T_fixed_camera * found.pose;
   alike_ = found.alike;
   tracked_ = true;
@@ -94,8 +94,8 @@ void Relocalizer::startTracking(const RgbdFrame& frame, const FoundPose& found) 
 }
 
 /// A lost body is found in the first frame that shows enough of its features.
-std::optional<FoundPose> Relocalizer::searchByFeatures(const RgbdFrame& frame, FrameObserver* observer,
-                                                       StageTimer* timer) {
+std::optional<FoundPose> BodySearch::searchByFeatures(const RgbdFrame& frame, FrameObserver* observer,
+                                                      StageTimer* timer) {
   if (!feature_search_.isDue(frame.stamp)) return std::nullopt;
   const std::optional<Eigen::Isometry3d> rough = observer->recognizePose(frame);
   if (!rough) return std::nullopt;
@@ -108,8 +108,8 @@ std::optional<FoundPose> Relocalizer::searchByFeatures(const RgbdFrame& frame, F
   return FoundPose{found.pose, 1};
 }
 
-std::optional<FoundPose> Relocalizer::searchByDepth(const RgbdFrame& frame, FrameObserver* observer,
-                                                    StageTimer* timer) {
+std::optional<FoundPose> BodySearch::searchByDepth(const RgbdFrame& frame, FrameObserver* observer,
+                                                   StageTimer* timer) {
   if (!depth_search_.isDue(frame.stamp)) return std::nullopt;
   depth_search_.failed();
   const auto scope = timer->stage("Model Registration", true);
@@ -120,8 +120,8 @@ std::optional<FoundPose> Relocalizer::searchByDepth(const RgbdFrame& frame, Fram
   return outcome.found;
 }
 
-SearchOutcome Relocalizer::searchByDepthNow(const RgbdFrame& frame, const SearchMeshes& meshes,
-                                            FrameObserver* observer) const {
+SearchOutcome BodySearch::searchByDepthNow(const RgbdFrame& frame, const SearchMeshes& meshes,
+                                           FrameObserver* observer) const {
   const Eigen::Isometry3d T_camera_fixed = frame.T_fixed_camera.inverse();
   if (given_ && !recovering_) {
     const SearchOutcome near =
@@ -139,7 +139,7 @@ SearchOutcome Relocalizer::searchByDepthNow(const RgbdFrame& frame, const Search
 }
 
 /// Where a lost body may be.
-RoughPose Relocalizer::lastPose(const RgbdFrame& frame) const {
+RoughPose BodySearch::lastPose(const RgbdFrame& frame) const {
   RoughPose last = roughPose(frame.T_fixed_camera.inverse() * pose_, config_);
   last.std_m += kWandering * seconds(frame.stamp - last_seen_);
   return last;
@@ -147,8 +147,8 @@ RoughPose Relocalizer::lastPose(const RgbdFrame& frame) const {
 
 /// Another scale of the mesh is tried only at the start, because it does not change later; and less and less
 /// often, because it takes as long as a few searches.
-SearchReport Relocalizer::explained(const RgbdFrame& frame, const SearchMeshes& meshes,
-                                    const FrameObserver& observer, const SearchOutcome& outcome) {
+SearchReport BodySearch::explained(const RgbdFrame& frame, const SearchMeshes& meshes,
+                                   const FrameObserver& observer, const SearchOutcome& outcome) {
   std::optional<RoughPose> rough;
   if (!searchesAnywhere()) rough = roughPose(frame.T_fixed_camera.inverse() * *given_, config_);
   SearchReport report = measureSearch(frame, observer.colors(), meshes, outcome, rough);

@@ -15,8 +15,8 @@ namespace softbody {
 /// The posterior knows the unknown loads. What the targets still differ from the body by is noise and shape
 /// that the model cannot take; the residual is its root mean square in one direction.
 /// @param targets that acted. @param vertices after the step, #V by 3 [m].
-void vertexDeviations(const std::vector<Target>& targets, const Tets& tets, const Points& vertices,
-                      const ShapePosterior& posterior, std::vector<float>* deviations);
+void standardDeviations(const std::vector<Target>& targets, const Tets& tets, const Points& vertices,
+                        const ShapePosterior& posterior, std::vector<float>* deviations);
 
 /// Confidence and standard deviation after a time without an image.
 void fadeUnobserved(double elapsed_s, MeshState* state);

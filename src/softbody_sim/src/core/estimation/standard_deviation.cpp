@@ -1,4 +1,4 @@
-#include "estimation/vertex_deviation.h"
+#include "estimation/standard_deviation.h"
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -38,8 +38,8 @@ Misfit misfitOf(const std::vector<Target>& targets, const Tets& tets, const Poin
 
 }  // namespace
 
-void vertexDeviations(const std::vector<Target>& targets, const Tets& tets, const Points& vertices,
-                      const ShapePosterior& posterior, std::vector<float>* deviations) {
+void standardDeviations(const std::vector<Target>& targets, const Tets& tets, const Points& vertices,
+                        const ShapePosterior& posterior, std::vector<float>* deviations) {
   constexpr double kDirections = 3.0;
   const Misfit misfit = misfitOf(targets, tets, vertices);
   deviations->resize(static_cast<std::size_t>(vertices.rows()));
