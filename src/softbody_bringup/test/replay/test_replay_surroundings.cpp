@@ -83,7 +83,7 @@ TEST_F(ReplayedSurroundings, AGripperSaysWhereTheHiddenEndIs) {
   ASSERT_FALSE(felt.empty());
   EXPECT_EQ(felt.front().header.frame_id, "gripper");
   EXPECT_FALSE(results<geometry_msgs::WrenchStamped>("/softbody/reaction/gripper_finger_2").empty());
-  options.gripper = write("gripper.yaml", "gripper: {frame: gripper, closed: /somebody/else}\n");
+  options.gripper = folder_.write("gripper.yaml", "gripper: {frame: gripper, closed: /somebody/else}\n");
   run(options);
   EXPECT_EQ(warningsWith("the gripper never closes"), 1);
 }
