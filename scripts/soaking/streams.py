@@ -6,12 +6,7 @@ import time
 import rospy
 
 BEFORE_S = 0.5  # frames so close before a kill need no answer
-
-
-def recovery_s(node):
-    """Longest time until a killed node works again [s]; a frame in this time needs no answer. Beside other work (load 10),
-    a manager starts 0.6 s after its kill, and loads its libraries and its camera's scene in 2.6 s of CPU time."""
-    return 5.0 if node.endswith("/manager") else 2.0
+NODE_S = 2.0  # longest time until a killed node works again
 
 
 def _header(buffer):
@@ -24,7 +19,7 @@ class Side:
     """One graph, by its namespace and its camera's. All times are those of the system clock, as the stamps are."""
 
     def __init__(self, namespace, camera):
-        self.namespace = namespace
+        self.namespace, self.begun = namespace, time.time()
         self.lock = threading.Lock()
         self.frames, self.states, self.kills = [], [], []  # stamps; (stamp, arrival); (time, node)
         self.revisions = {"volume": 0, "surface": 0}
@@ -56,8 +51,13 @@ class Side:
             else:
                 self.longest_apart = max(self.longest_apart, now - self.apart_since)
 
+    def recovery_s(self, node):
+        """Longest time until a killed node works again [s]; a frame in this time needs no answer. A manager starts the whole
+        graph again, and may take as long as the graph's own start, on this machine beside the same work."""
+        return self.states[0][1] - self.begun if node.endswith("/manager") else NODE_S
+
     def _is_calm(self, moment):
-        return not any(kill - BEFORE_S <= moment <= kill + recovery_s(node) for kill, node in self.kills)
+        return not any(kill - BEFORE_S <= moment <= kill + self.recovery_s(node) for kill, node in self.kills)
 
     def unanswered(self, begin, end):
         """Stamps of frames that got no state although no kill was near, and the number of all such frames."""
@@ -78,7 +78,7 @@ class Side:
             time_s = min(times, default=float("inf"))
             again = any(kill < other < kill + time_s for other, _ in self.kills)
             if kill < end and not again and not node.endswith(("/virtual_camera", "/injector")):
-                slowest.setdefault(recovery_s(node), []).append((time_s, node))
+                slowest.setdefault(self.recovery_s(node), []).append((time_s, node))
         return [(limit, max(times)) for limit, times in sorted(slowest.items())]
 
     def latency(self, begin, end):

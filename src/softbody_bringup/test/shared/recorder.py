@@ -13,6 +13,7 @@ class Recorder:
         """One keyword a topic: its name with "/" written as "__", its message type."""
         self.changed = threading.Condition()
         self.messages = {name.replace("__", "/"): [] for name in types}
+        self.arrivals = {name: [] for name in self.messages}
         self.subscribers = [
             rospy.Subscriber("/" + name, types[name.replace("/", "__")], self._record, name, queue_size=1000)
             for name in self.messages
@@ -21,6 +22,7 @@ class Recorder:
     def _record(self, message, name):
         with self.changed:
             self.messages[name].append(message)
+            self.arrivals[name].append(rospy.Time.now())
             self.changed.notify_all()
 
     def wait(self, condition, what):
