@@ -28,4 +28,4 @@ def time_row(reports, what, initialization):
 
 def readme_rows(reports):
     return [*error_rows(reports), time_row(reports, "time of a frame", False),
-            time_row(reports, "initialization without registration", True)]
+            time_row(reports, "initialization without the search", True)]

@@ -110,8 +110,7 @@ void SurfaceEditor::finishEdit(const ros::Time& stamp) {
   if (body_->droppedVersions() > 0) {
     ROS_INFO_ONCE(
         "the memory of earlier cuts is full: undo of the oldest strokes will take longer, because the body "
-        "is "
-        "cut again");
+        "is cut again");
   }
   on_edit_();
 }
