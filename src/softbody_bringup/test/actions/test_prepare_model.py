@@ -11,6 +11,7 @@ import rospy
 from actionlib_msgs.msg import GoalStatus
 from softbody_msgs.msg import PrepareModelAction, PrepareModelGoal
 
+from goals import send
 from recorder import PATIENCE_S
 
 CONFIG = rospkg.RosPack().get_path("softbody_bringup") + "/config"
@@ -45,7 +46,7 @@ class PrepareModel(unittest.TestCase):
             if on_progress:
                 on_progress()
 
-        self.client.send_goal(PrepareModelGoal(**goal), feedback_cb=receive)
+        send(self.client, PrepareModelGoal(**goal), feedback_cb=receive)
         self.assertTrue(self.client.wait_for_result(rospy.Duration(2 * PATIENCE_S)))
         return self.client.get_state(), self.client.get_result()
 

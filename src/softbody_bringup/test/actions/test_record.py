@@ -11,6 +11,7 @@ from actionlib_msgs.msg import GoalStatus
 from softbody_msgs.msg import RecordAction, RecordGoal
 from std_msgs.msg import String
 
+from goals import send
 from recorder import PATIENCE_S
 
 RESULT = ["/softbody/status", "/softbody/surface/state", "/softbody/surface/topology", "/softbody/timing",
@@ -43,7 +44,7 @@ class Record(unittest.TestCase):
     def start(self, goal, node="recorder"):
         client = actionlib.SimpleActionClient(f"/softbody/{node}/record", RecordAction)
         self.assertTrue(client.wait_for_server(rospy.Duration(PATIENCE_S)))
-        client.send_goal(goal, feedback_cb=self.progress.append)
+        send(client, goal, feedback_cb=self.progress.append)
         return client
 
     def end(self, client):

@@ -8,6 +8,7 @@ LINK = re.compile(r"\]\(([^)\s]+)\)")
 CODE = re.compile(r"`([^`]+)`")
 HEADING = re.compile(r"^#+ (.*)$", re.MULTILINE)
 PARAMETER = re.compile(r"[a-z][a-z0-9_]*$")
+PROGRAM = "paper_method"  # of softbody_evaluation
 NODE = re.compile(r"^Parameters of `(\w+)`:\n\n(?:<!--.*-->\n\n)?((?:\|.*\n)+)", re.MULTILINE)
 
 
@@ -68,4 +69,4 @@ def table_under(heading, page):
 def parameters(row):
     """[(name, value or None)] that a row names, in all cells but the last."""
     spans = [span.partition(":") for cell in row[:3] for span in CODE.findall(cell)]
-    return [(name, value.strip() or None) for name, _, value in spans if PARAMETER.match(name)]
+    return [(name, value.strip() or None) for name, _, value in spans if PARAMETER.match(name) and name != PROGRAM]

@@ -112,7 +112,7 @@ TEST_F(GraphConfigTest, AnotherGripperReplacesThatOfTheParameters) {
 }
 
 TEST_F(GraphConfigTest, RefusesWhatTheNodeRefuses) {
-  EXPECT_TRUE(says(refusalOf("camera_ingest: {sync_tolerance_s: 0}\n"), "sync_tolerance_s is 0"));
+  EXPECT_TRUE(says(refusalOf("camera_ingest: {sync_tolerance_s: -1}\n"), "sync_tolerance_s is -1"));
   EXPECT_EQ(read("camera_ingest: {sync_tolerance_s: 0.02}\n").pairing.tolerance, 20'000'000);
 }
 

@@ -88,7 +88,7 @@ TEST_F(ObjectModelTest, ARefusedMeshLeavesTheFolderAsItWas) {
   folder_.write("out/object.yaml", "mine");
   folder_.write("bad.obj", "v 0 0 0\nf 1 1 1\n");
   std::ostringstream progress;
-  EXPECT_NE(complaint([&] {
+  EXPECT_NE(complaint<std::exception>([&] {
               prepareModel({folder_.file("bad.obj"), "m", 0.0, {}}, folder_.file("out"), {}, progress);
             }),
             "");
@@ -102,7 +102,7 @@ TEST_F(ObjectModelTest, AFolderIsPreparedAgainButFilesOfTheUserStay) {
   const ObjectDescription description = describe(test::block());
   std::ostringstream progress;
   const auto prepare = [&](const std::string& name) {
-    return complaint([&] {
+    return complaint<std::exception>([&] {
       prepareModel({description.visual_mesh, "m", 0.0, {}}, folder_.file(name), {}, progress);
     });
   };

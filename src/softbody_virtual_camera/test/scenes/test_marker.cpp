@@ -2,12 +2,11 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <opencv2/aruco.hpp>
 #include <opencv2/calib3d.hpp>
-#include <opencv2/imgproc.hpp>
 
 #include "fixtures/scene_fixtures.h"
 #include "scenes/tool.h"
-#include "softbody_tracking/tool/marker_detector.h"
 #include "softbody_virtual_camera/camera/virtual_camera.h"
 
 namespace softbody::virtual_camera {
@@ -57,18 +56,16 @@ double largestDistance(const Corners& a, const Corners& b) {
   return largest;
 }
 
-/// The marker, nothing else being there to detect; empty if it is not found.
-Corners detect(const cv::Mat3b& color, int id) {
-  static const MarkerDetector detector("DICT_4X4_50");
-  cv::Mat1b gray;
-  cv::cvtColor(color, gray, cv::COLOR_BGR2GRAY);
-  Corners corners;
-  for (const MarkerDetection& detection : detector.detect(gray)) {
-    EXPECT_EQ(detection.id, id);
-    EXPECT_TRUE(corners.empty());
-    for (Eigen::Index k = 0; k < 4; ++k)
-      corners.emplace_back(detection.corners.cast<float>()(0, k), detection.corners.cast<float>()(1, k));
-  }
+/// Detections of the marker, nothing else being there to detect.
+std::vector<Corners> detect(const cv::Mat3b& color, int id) {
+  const auto parameters = cv::aruco::DetectorParameters::create();
+  parameters->cornerRefinementMethod = cv::aruco::CORNER_REFINE_SUBPIX;
+  parameters->minMarkerDistanceRate = 0.02;
+  std::vector<Corners> corners;
+  std::vector<int> ids;
+  cv::aruco::detectMarkers(color, cv::aruco::getPredefinedDictionary(cv::aruco::DICT_4X4_50), corners, ids,
+                           parameters);
+  for (const int found : ids) EXPECT_EQ(found, id);
   return corners;
 }
 
@@ -91,6 +88,15 @@ Eigen::Isometry3d poseOf(const Corners& corners, const ToolMarker& marker) {
   return T_camera_marker * marker.T_tool_marker.inverse();
 }
 
+/// The detection that is nearest to where the marker is: its outline may be found twice.
+const Corners* nearest(const std::vector<Corners>& found, const Corners& expected) {
+  const auto closer = [&](const Corners& a, const Corners& b) {
+    return largestDistance(a, expected) < largestDistance(b, expected);
+  };
+  const auto best = std::min_element(found.begin(), found.end(), closer);
+  return best == found.end() ? nullptr : &*best;
+}
+
 class MarkerInCutScene : public testing::TestWithParam<std::string> {};
 
 TEST_P(MarkerInCutScene, IsWhereTheTruthSaysWithoutNoise) {
@@ -103,11 +109,12 @@ TEST_P(MarkerInCutScene, IsWhereTheTruthSaysWithoutNoise) {
     const Corners expected = projected(marker, truth);
     if (!inView(expected)) continue;
     ++frames;
-    const Corners corners = detect(capture.color, marker.id);
-    ASSERT_FALSE(corners.empty()) << "at " << t;
-    EXPECT_LT(largestDistance(corners, expected), 0.5) << "at " << t;
+    const std::vector<Corners> found = detect(capture.color, marker.id);
+    const Corners* corners = nearest(found, expected);
+    ASSERT_NE(corners, nullptr) << "at " << t;
+    EXPECT_LT(largestDistance(*corners, expected), 0.5) << "at " << t;
     const Eigen::Isometry3d error =
-        (truth * marker.T_tool_marker).inverse() * poseOf(corners, marker) * marker.T_tool_marker;
+        (truth * marker.T_tool_marker).inverse() * poseOf(*corners, marker) * marker.T_tool_marker;
     EXPECT_LT(error.translation().norm(), 1e-3) << "at " << t;
     EXPECT_LT(Eigen::AngleAxisd(error.linear()).angle() * 180.0 / 3.14159265358979, 0.5) << "at " << t;
   }
@@ -123,8 +130,9 @@ TEST_P(MarkerInCutScene, IsFoundInNearlyEveryNoisyFrame) {
     const Corners expected = projected(marker, *capture.T_camera_tool);
     if (!inView(expected)) continue;
     ++frames;
-    const Corners corners = detect(capture.color, marker.id);
-    found += !corners.empty() && largestDistance(corners, expected) < 2.0;
+    const std::vector<Corners> detected = detect(capture.color, marker.id);
+    const Corners* corners = nearest(detected, expected);
+    found += corners != nullptr && largestDistance(*corners, expected) < 2.0;
   }
   EXPECT_GE(frames, 20);
   EXPECT_GE(found, 0.95 * frames) << found << " of " << frames;
