@@ -1,4 +1,4 @@
-"""A roslaunch with a master of its own, which ends with the measurement however that ends."""
+"""A roslaunch with a master of its own, which ends with the program however that ends."""
 import os
 import signal
 import socket
@@ -7,9 +7,11 @@ import sys
 import time
 import uuid
 
+import rosgraph
+
 MARK = "MEASURE_LIVE"  # the variable by which the processes of a graph are known: roslaunch copies it to each node
 POLL_S = 0.1
-PATIENCE_S = 60.0  # roslaunch itself kills a node that does not end within 20 s
+PATIENCE_S = 90.0  # roslaunch itself kills a node that does not end within 20 s
 
 
 def free_port():
@@ -18,42 +20,43 @@ def free_port():
         return probe.getsockname()[1]
 
 
-def processes_of(mark):
-    """Ids of the other processes of this graph. roslaunch starts each node in a session of its own."""
-    variable = f"{MARK}={mark}".encode()
-    for entry in filter(str.isdigit, os.listdir("/proc")):
-        try:
-            with open(f"/proc/{entry}/environ", "rb") as environment:
-                if variable in environment.read().split(b"\0") and int(entry) != os.getpid():
-                    yield int(entry)
-        except OSError:
-            continue  # it has ended, or belongs to somebody else
-
-
 class Graph:
-    """While it is entered, the launch runs, and signals that ask to stop raise SystemExit in sleep()."""
+    """The launch runs until the end of a with statement. Signals that ask to stop raise SystemExit in sleep()."""
 
-    def __init__(self, arguments):
-        """@param arguments of roslaunch. This process finds the master, too."""
+    def __init__(self, program, arguments, **streams):
+        """@param program: its name, for messages. @param arguments of roslaunch. @param streams: where its output goes.
+        This process finds the master, too."""
         port = free_port()
-        self._mark = str(uuid.uuid4())
-        self._command = ["roslaunch", "-p", str(port), *arguments]
-        self._launch, self._signal = None, None
+        self._program, self._mark, self._signal = program, str(uuid.uuid4()), None
+        self.faults = []  # sentences on processes that ended by themselves or did not end
         os.environ.update(ROS_MASTER_URI=f"http://127.0.0.1:{port}", ROS_IP="127.0.0.1", **{MARK: self._mark})
-
-    def __enter__(self):
         for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
             if signal.getsignal(number) != signal.SIG_IGN:  # nohup
                 signal.signal(number, self._note)
-        self._launch = subprocess.Popen(self._command, stdout=subprocess.DEVNULL, start_new_session=True)
+        self._launch = subprocess.Popen(["roslaunch", "-p", str(port), *arguments], start_new_session=True, **streams)
+
+    def __enter__(self):
         return self
 
     def _note(self, number, _):
         self._signal = number
 
+    def wait_for_master(self):
+        while not rosgraph.is_master_online():
+            if not self.runs():
+                sys.exit(f"{self._program}: roslaunch ended at its start")
+            self.sleep(POLL_S)
+
     def processes(self):
-        """Ids of what roslaunch has started."""
-        return [pid for pid in processes_of(self._mark) if pid != self._launch.pid]
+        """(id, environment) of each process that roslaunch has started. It starts each node in a session of its own."""
+        for entry in filter(str.isdigit, os.listdir("/proc")):
+            try:
+                with open(f"/proc/{entry}/environ", encoding="utf-8", errors="replace") as file:
+                    environment = dict(word.partition("=")[::2] for word in file.read().split("\0"))
+            except OSError:
+                continue  # it has ended, or belongs to somebody else
+            if environment.get(MARK) == self._mark and int(entry) not in (os.getpid(), self._launch.pid):
+                yield int(entry), environment
 
     def runs(self):
         return self._launch.poll() is None
@@ -62,7 +65,7 @@ class Graph:
         end = time.monotonic() + seconds
         while True:
             if self._signal:
-                print(f"measure_live: was stopped by {signal.Signals(self._signal).name}", file=sys.stderr)
+                print(f"{self._program}: was stopped by {signal.Signals(self._signal).name}", file=sys.stderr)
                 sys.exit(128 + self._signal)
             left = end - time.monotonic()
             if left <= 0.0:
@@ -75,16 +78,20 @@ class Graph:
         try:
             self._launch.wait(PATIENCE_S)
         except subprocess.TimeoutExpired:
-            print(f"measure_live: roslaunch did not end within {PATIENCE_S:.0f} s and is killed", file=sys.stderr)
+            self._complain(f"roslaunch did not end within {PATIENCE_S:.0f} s and is killed")
+            self._launch.kill()
         deadline = time.monotonic() + PATIENCE_S
-        while left := list(processes_of(self._mark)):
+        while left := [pid for pid, _ in self.processes()]:
             if time.monotonic() > deadline:
-                print(f"measure_live: these processes do not end: {left}", file=sys.stderr)
+                self._complain(f"these processes do not end: {left}")
                 return
             for pid in left:
                 try:
                     os.kill(pid, signal.SIGKILL)
                 except OSError:
                     pass  # it has just ended, or this user may not
-            self._launch.poll()
             time.sleep(POLL_S)
+
+    def _complain(self, sentence):
+        print(f"{self._program}: {sentence}", file=sys.stderr)
+        self.faults.append(sentence)

@@ -1,13 +1,15 @@
 """The knife of scenes with a cut, by the ground truth."""
-import os
-
 import numpy as np
+import rospy
+import yaml
+from geometry_msgs.msg import PoseStamped
 from scipy.spatial.transform import Rotation
+from sensor_msgs.msg import CameraInfo
 
 from live.streams import CAMERA
+from pages import ROOT
 
-CONFIG = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../config")
-KNIFE = os.path.join(CONFIG, "knife.yaml")
+KNIFE = ROOT / "config/knife.yaml"
 TRUE_TOOL = "/ground_truth/tool/pose"
 
 
@@ -20,19 +22,13 @@ class Knife:
     """The frames in which a marker of the knife is in the image."""
 
     def __init__(self):
-        import rospy
-        import yaml
-        from geometry_msgs.msg import PoseStamped
-
-        with open(KNIFE, encoding="utf-8") as file:
-            self.markers = yaml.safe_load(file)["tool"]["markers"]
+        self.markers = yaml.safe_load(KNIFE.read_text(encoding="utf-8"))["tool"]["markers"]
         self.shown, self.info = set(), None
-        rospy.Subscriber(CAMERA, rospy.AnyMsg, self.set_info, queue_size=1)  # AnyMsg, because rospy allows only one type per topic
+        # AnyMsg, because rospy allows only one type per topic.
+        rospy.Subscriber(CAMERA, rospy.AnyMsg, self.set_info, queue_size=1)
         rospy.Subscriber(TRUE_TOOL, PoseStamped, self.add, queue_size=100)
 
     def set_info(self, message):
-        from sensor_msgs.msg import CameraInfo
-
         self.info = self.info or CameraInfo().deserialize(message._buff)
 
     def add(self, message):
@@ -45,4 +41,5 @@ class Knife:
         corners = np.array([[x, y, 0.0] for x in (-half, half) for y in (-half, half)])
         homogeneous = moved(pose, moved(marker["pose"], corners)) @ np.reshape(self.info.K, (3, 3)).T
         pixels = homogeneous[:, :2] / homogeneous[:, 2:]
-        return bool((homogeneous[:, 2] > 0).all() and (pixels >= 0).all() and (pixels < [self.info.width, self.info.height]).all())
+        inside = (pixels >= 0).all() and (pixels < [self.info.width, self.info.height]).all()
+        return bool(inside and (homogeneous[:, 2] > 0).all())

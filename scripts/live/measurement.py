@@ -1,13 +1,17 @@
 """Measures a live graph: what it sends and when, and its CPU time."""
 import math
 import os
+import subprocess
 import sys
 import time
 
+import rospy
+
 from live.graph import Graph
-from live.knife import CONFIG, KNIFE, Knife
+from live.knife import KNIFE, Knife
 from live.process_times import graph_times
 from live.streams import CAMERA, CUTS, STREAMS, SURFACE, Stream
+from pages import ROOT
 
 START_S = 120.0  # longest time until the first surface
 WARM_UP_S = 2.0  # after the first mesh: past the first registration
@@ -17,8 +21,7 @@ AFTER_S = 0.5  # until the answers to the last frames have arrived
 
 
 def launch_arguments(options):
-    doll = options.scene.startswith("doll_")
-    thing = options.object or os.path.join(CONFIG, "doll.yaml" if doll else "sponge.yaml")
+    thing = options.object or ROOT / "config" / ("doll.yaml" if options.scene.startswith("doll_") else "sponge.yaml")
     arguments = ["softbody_bringup", "playback.launch" if options.bag else "demo.launch", "rviz:=false",
                  "object:=" + os.path.abspath(thing), "nodelets:=" + str(options.nodelets).lower()]
     if options.bag:
@@ -26,7 +29,7 @@ def launch_arguments(options):
     else:
         arguments += [f"{name}:={getattr(options, name)}" for name in ("scene", "rate", "width", "height")]
     if options.cuts:  # the scene starts 6 s late, when the graph is ready for its only cut
-        arguments += ["tool:=" + KNIFE, "hold:=6"]
+        arguments += [f"tool:={KNIFE}", "hold:=6"]
     return arguments
 
 
@@ -36,22 +39,13 @@ class Measurement:
     def __init__(self, options):
         """Raises SystemExit with a sentence if there is nothing to measure, or if a signal asks to stop."""
         self.options = options
-        with Graph(launch_arguments(options)) as graph:
-            self._subscribe(graph)
+        with Graph("measure_live", launch_arguments(options), stdout=subprocess.DEVNULL) as graph:
+            graph.wait_for_master()
+            rospy.init_node("measure_live", anonymous=True, disable_signals=True)
+            self.streams = {topic: Stream(topic) for topic in [CAMERA] + STREAMS + [CUTS]}
+            self.knife = Knife() if options.cuts else None
             self._wait_for_surface(graph)
             self._measure(graph)
-
-    def _subscribe(self, graph):
-        import rosgraph
-        import rospy
-
-        while not rosgraph.is_master_online() and graph.runs():
-            graph.sleep(0.1)
-        if not graph.runs():
-            sys.exit("measure_live: roslaunch ended at its start")
-        rospy.init_node("measure_live", anonymous=True, disable_signals=True)
-        self.streams = {topic: Stream(topic) for topic in [CAMERA] + STREAMS + [CUTS]}
-        self.knife = Knife() if self.options.cuts else None
 
     def _wait_for_surface(self, graph):
         camera, bag = self.streams[CAMERA], self.options.bag
@@ -69,13 +63,13 @@ class Measurement:
 
     def _measure(self, graph):
         camera, options = self.streams[CAMERA], self.options
-        before, self.begin, first = graph_times(graph.processes(), "virtual_camera"), time.monotonic(), len(camera.stamps)
+        before, self.begin, first = graph_times(graph.processes()), time.monotonic(), len(camera.stamps)
         # A slow camera delays the scene, and so its cut.
         due, longest_s = (first + options.rate * options.seconds, 4.0 * options.seconds) if options.cuts else (math.inf, options.seconds)
         while len(camera.stamps) < due and time.monotonic() < min(self.begin + longest_s, camera.arrivals[-1] + SILENCE_S):
             graph.sleep(0.01)
         self.end = min(time.monotonic(), camera.arrivals[-1] + 1.0 / options.rate)
-        self.times = {row: seconds - before.get(row, 0.0) for row, seconds in graph_times(graph.processes(), "virtual_camera").items()}
+        self.times = {row: seconds - before.get(row, 0.0) for row, seconds in graph_times(graph.processes()).items()}
         self.load = os.getloadavg()[0]
         graph.sleep(AFTER_S)
         if not camera.between(self.begin, self.end):

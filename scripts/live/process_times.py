@@ -1,14 +1,18 @@
 """CPU times of a ROS graph's processes and threads. Other programs do not change them."""
 import os
 
+NAME = "__name:="
 
-def command_line(pid):
-    """The words of a process's command; none if it has ended."""
+
+def names_of(pid):
+    """The program of a process, or its script, and its name by roslaunch or ""; two times nothing if it has ended."""
     try:
         with open(f"/proc/{pid}/cmdline", encoding="utf-8") as line:
-            return line.read().split("\0")
+            words = line.read().split("\0")
     except OSError:
-        return []
+        return "", ""
+    program = next((os.path.basename(word) for word in words[:2] if "python" not in word and word), "?")
+    return program, next((word[len(NAME):] for word in words if word.startswith(NAME)), "")
 
 
 def cpu_seconds(folder):
@@ -33,31 +37,23 @@ def thread_names(pid):
     return names
 
 
-def row_of(words):
-    """What a process counts as: the name that roslaunch gave it, or its program."""
-    program = next((os.path.basename(word) for word in words[:2] if "python" not in word and word), "?")
-    if program == "nodelet_loader":
-        return program
-    return next((word[len("__name:="):] for word in words if word.startswith("__name:=")), program)
-
-
-def graph_times(pids, camera):
-    """CPU time [s] of processes so far, by row. A node's callbacks run in the main thread of its process, or in a thread with its name in the
-    manager. All other threads of these processes are "transport". All of a camera with its own process counts as the camera."""
-    processes = {pid: command_line(pid) for pid in pids}
-    rows = {pid: row_of(words) for pid, words in processes.items()}
-    nodelets = {word[len("__name:="):] for pid, words in processes.items() if rows[pid] == "nodelet_loader"
-                for word in words if word.startswith("__name:=")}
+def graph_times(found):
+    """CPU time [s] so far of processes (id, environment), by row. A node's callbacks run in the main thread of its process, or in a
+    thread with its name in the manager. All other threads of these processes are "transport". All of a camera with its
+    own process counts as the camera."""
+    processes = {pid: names_of(pid) for pid, _ in found}
+    nodelets = {name[:15]: name for program, name in processes.values() if program == "nodelet_loader" and name}
     times = {}
-    for pid, row in rows.items():
-        rest = cpu_seconds(pid)
-        if any(word.startswith("__name:=") for word in processes[pid]) and row not in (camera, "nodelet_loader", "rosout", "play"):
-            own = {name: name[:15] for name in nodelets} if row == "manager" else {}
+    for pid, (program, name) in processes.items():
+        row, rest = name or program or "?", cpu_seconds(pid)
+        if program == "nodelet_loader":
+            row = program
+        elif name and name not in ("virtual_camera", "rosout", "play"):
             for thread, comm in thread_names(pid).items():
-                name = row if thread == pid else next((name for name, short in own.items() if short == comm), None)
-                if name:
+                of_node = name if thread == pid else nodelets.get(comm) if name == "manager" else None
+                if of_node:
                     seconds = cpu_seconds(f"{pid}/task/{thread}")
-                    times[name] = times.get(name, 0.0) + seconds
+                    times[of_node] = times.get(of_node, 0.0) + seconds
                     rest -= seconds
             row = "transport"
         times[row] = times.get(row, 0.0) + rest

@@ -2,6 +2,8 @@
 import struct
 import time
 
+import rospy
+
 # CameraInfo is small, and one is sent with every image.
 CAMERA, SURFACE = "/camera/color/camera_info", "/softbody/surface/state"
 TOOL = "/softbody/tool/pose"
@@ -14,8 +16,6 @@ class Stream:
     """Stamps and arrival times of a topic's messages."""
 
     def __init__(self, topic):
-        import rospy
-
         self.stamps, self.arrivals, self.clock = [], [], []
         rospy.Subscriber(topic, rospy.AnyMsg, self.add, queue_size=100, buff_size=1 << 24, tcp_nodelay=True)
 

@@ -76,12 +76,12 @@ class Killer(threading.Thread):
         super().__init__(daemon=True)
         self.graph, self.sides, self.stop = graph, sides, stop
         self.begin, self.end = begin, end
-        self.period, self.left = options.kill_every, options.kills
+        self.period, self.most = options.kill_every, options.kills
         self.random = random.Random(1)
         self.done = 0
 
     def run(self):
-        while self.left is None or self.left > 0:
+        while self.most is None or self.done < self.most:
             due = max(self.begin - time.time(), self.random.uniform(0.7, 1.3) * self.period)
             if self.stop.wait(due) or time.time() > self.end:
                 return
@@ -95,7 +95,6 @@ class Killer(threading.Thread):
             with side.lock:
                 side.kills.append((moment, name))
             self.done += 1
-            self.left = None if self.left is None else self.left - 1
 
 
 def restart_scene(graph, side):
