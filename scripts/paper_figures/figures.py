@@ -11,12 +11,10 @@ LARGE = 4.5  # width of a panel with many features [inches]
 DARK_GREEN = (0.0, 0.4, 0.1)
 
 
-def show_overlay(axis, moment, title):
-    """Figure 9: the high-resolution model over the image, with the features' motion."""
+def show_features(axis, moment, title):
+    """The image, with the features' motion on it."""
     frame(axis, moment.camera, [moment.surface[0], moment.origins], title)
     show_pale_image(axis, moment.image)
-    show_body(axis, moment.camera, *moment.surface, GREEN, 0.3)
-    show_edges(axis, moment.camera, *moment.cage, DARK_GREEN, 0.4)
     show_vectors(axis, moment.camera, moment)
 
 
@@ -54,10 +52,7 @@ def figure_4(scenes):
     """Features at the beginning (red) and now (blue)."""
     figure, axes = panels(1, 2, LARGE)
     for axis, name in zip(axes[0], ("bend", "doll_bend")):
-        moment = scenes[name][1]
-        frame(axis, moment.camera, [moment.surface[0], moment.origins], SEEN[name])
-        show_pale_image(axis, moment.image)
-        show_vectors(axis, moment.camera, moment)
+        show_features(axis, scenes[name][1], SEEN[name])
     return figure
 
 
@@ -115,7 +110,10 @@ def figure_9(scenes):
     """Bodies bent and pushed, with features, vectors and model over the image."""
     figure, axes = panels(2, 2, LARGE)
     for axis, name in zip(axes.flat, MOTIONS):
-        show_overlay(axis, scenes[name][1], SEEN[name])
+        moment = scenes[name][1]
+        show_body(axis, moment.camera, *moment.surface, GREEN, 0.3)
+        show_edges(axis, moment.camera, *moment.cage, DARK_GREEN, 0.4)
+        show_features(axis, moment, SEEN[name])
     return figure
 
 

@@ -20,11 +20,6 @@ MOST_EDGES = 5000  # triangles; those of a finer mesh would cover everything
 EDGE = (0.0, 0.3, 0.1)
 
 
-def recording(folder, scene):
-    """The recording of a scene for the film, and its result."""
-    return folder / f"film_{scene}.bag", folder / f"film_{scene}_result.bag"
-
-
 def between(begin, end):
     """Every second state of a part of a recording [s]."""
     def chosen(states):
@@ -55,12 +50,12 @@ def draw_frame(moment, clouds, words, blade):
     return figure
 
 
-def make_film(folder, path):
+def make_film(bags, path):
     """Writes the film as WebP, at the speed of the recordings."""
     with tempfile.TemporaryDirectory() as pictures:
         files = []
         for scene, (words, begin, end) in SCENES.items():
-            bag, result = recording(folder, scene)
+            bag, result = bags[f"film of {scene}"]
             shown, blades = moments(bag, result, between(begin, end)), read_blades(result)
             clouds = [np.vstack([moment.surface[0] for moment in shown])]
             for moment in shown:

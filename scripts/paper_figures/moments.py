@@ -62,14 +62,15 @@ def most_deformed(states):
     return states[0], max(states, key=lambda state: np.square(state.vertices - states[0].vertices).sum())
 
 
-def at(stamps):
-    """The states at these stamps."""
-    return lambda states: [state for state in states if state.stamp in stamps]
-
-
 def around_cut(states):
     """The first state after the first cut, and the last state."""
     return next(state for state in states if state.revision > 0), states[-1]
+
+
+def around_tear(states):
+    """The last state before the body tears, the first one after it, and the last of all."""
+    torn = next(number for number, state in enumerate(states) if state.revision > 0)
+    return states[torn - 1], states[torn], states[-1]
 
 
 def moments(recording, result, choose=most_deformed):
