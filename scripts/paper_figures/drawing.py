@@ -42,10 +42,6 @@ def frame(axis, camera, clouds, title="", margin=0.08):
     axis.set_title(title, fontsize=9)
 
 
-def show_image(axis, image):
-    axis.imshow(image, interpolation="bicubic")
-
-
 def show_pale_image(axis, image):
     """Gray and bright, so that colours on it are seen."""
     axis.imshow(image.mean(axis=2), interpolation="bicubic", cmap="gray", vmin=-150, vmax=230)

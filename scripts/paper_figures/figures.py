@@ -1,8 +1,8 @@
 """Figures 1 to 9 of Kang et al. 2022, with our bodies."""
 import numpy as np
 
-from paper_figures.drawing import (BLUE, GRAY, GREEN, RED, frame, panels, pixels, show_body, show_edges, show_image,
-                                   show_pale_image, show_points, show_tets, show_vectors)
+from paper_figures.drawing import (BLUE, GRAY, GREEN, RED, frame, panels, pixels, show_body, show_edges, show_pale_image,
+                                   show_points, show_tets, show_vectors)
 from paper_figures.overview import overview
 
 MOTIONS = ("bend", "push", "doll_bend", "doll_push")
@@ -26,7 +26,7 @@ def figure_1(scenes):
         for axis in column:
             frame(axis, moment.camera, [moment.surface[0]])
         column[0].set_title(SEEN[name], fontsize=9)
-        show_image(column[0], moment.image)
+        column[0].imshow(moment.image, interpolation="bicubic")
         show_body(column[1], moment.camera, *moment.surface)
         show_edges(column[1], moment.camera, *moment.cage, BLUE, 0.4)
     return figure

@@ -5,8 +5,8 @@ import tempfile
 import numpy as np
 from matplotlib import pyplot
 
-from paper_figures.drawing import (ASPECT, BLUE, GREEN, SKIN, blend_body, frame, pixels, show_body, show_image,
-                                   show_pale_image, show_points)
+from paper_figures.drawing import (ASPECT, BLUE, GREEN, SKIN, blend_body, frame, pixels, show_body, show_pale_image,
+                                   show_points)
 from paper_figures.moments import moments, read_blades
 
 # Each scene: its words, and the part that is shown [s].
@@ -37,7 +37,7 @@ def draw_frame(moment, clouds, words, blade):
     for axis, title in zip(axes, (words, "mesh and features on the image", "model")):
         axis.set_axis_off()
         frame(axis, moment.camera, clouds, title, margin=0.15)
-    show_image(axes[0], moment.image)
+    axes[0].imshow(moment.image, interpolation="bicubic")
     show_pale_image(axes[1], moment.image)
     edges = [EDGE] if len(moment.surface[1]) < MOST_EDGES else None
     blend_body(axes[1], moment.camera, *moment.surface, GREEN, 0.45, edges)

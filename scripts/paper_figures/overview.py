@@ -2,8 +2,7 @@
 from matplotlib import pyplot
 from matplotlib.patches import FancyArrowPatch
 
-from paper_figures.drawing import (DPI, GRAY, SKIN, frame, show_body, show_image, show_pale_image, show_tets,
-                                   show_vectors)
+from paper_figures.drawing import DPI, GRAY, SKIN, frame, show_body, show_pale_image, show_tets, show_vectors
 
 # Each step: its node, its stage in the paper, its column and row.
 STEPS = {"camera": ("camera, camera_ingest", "RGB-D images", 0, 0),
@@ -22,7 +21,7 @@ def show_step(axis, name, shown):
     """The picture of one step."""
     frame(axis, shown.camera, [shown.surface[0]], margin=0.4 if name == "tool" else 0.08)
     if name in ("camera", "tool"):
-        show_image(axis, shown.image)
+        axis.imshow(shown.image, interpolation="bicubic")
     if name == "features":
         show_pale_image(axis, shown.image)
         show_vectors(axis, shown.camera, shown, 0.8)

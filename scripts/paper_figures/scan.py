@@ -4,7 +4,7 @@ import sys
 
 import numpy as np
 import rosbag
-from drawing import RED, frame, panels, save, show_body, show_image
+from drawing import RED, frame, panels, save, show_body
 from matplotlib import pyplot
 
 COLOR = "/camera/color/image_raw"
@@ -86,16 +86,11 @@ def sides(vertices, triangles, colors):
     return figure
 
 
-def walk(image):
-    """A figure of one image."""
-    figure, axes = panels(1, 1, 4.6)
-    show_image(axes[0][0], image)
-    return figure
-
-
 def main():
     bag, folder, output = map(pathlib.Path, sys.argv[1:])
-    save(walk(read_image(bag)), output / "scan_walk.webp")
+    walk, axes = panels(1, 1, 4.6)
+    axes[0][0].imshow(read_image(bag), interpolation="bicubic")
+    save(walk, output / "scan_walk.webp")
     save(sides(*textured(folder)), output / "scan_model.webp")
     save(sides(*seen_colors(folder)), output / "scan_seen.webp")
 
