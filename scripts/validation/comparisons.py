@@ -4,10 +4,12 @@ import math
 import sys
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from pages import ROOT
 from validation.corotational_reference import beam_tip
-from validation.simulate_tool import OUTPUT, SOLVERS, box, cells, positions, run_tool, second_moment, simulate
+from validation.simulate_tool import (OUTPUT, SOLVERS, box, cells, positions, run_tool, second_moment, settled,
+                                      static)
 
 MESHES = ROOT / "../shared/data/meshes/tet"
 
@@ -15,10 +17,9 @@ MESHES = ROOT / "../shared/data/meshes/tet"
 def agreement_rows():
     """Static equilibria of PD and FEM with the same corotated energy, on published meshes."""
     rows = []
-    for path in sorted([*MESHES.glob("*/*.ele"), *MESHES.glob("*/*.msh"), *MESHES.glob("*/*.vtu"),
-                        *MESHES.glob("*/*.veg")]):
+    for path in sorted(path for path in MESHES.glob("*/*") if path.suffix in (".ele", ".msh", ".vtu", ".veg")):
         probe = OUTPUT / "rest.vtu"
-        run = run_tool(path, "--steps", 1, "--output", probe)[1]
+        run = run_tool(path, "--steps", 1, "--output", probe)
         if run.returncode != 0:
             print(run.stderr, end="", file=sys.stderr)
             continue  # no tets
@@ -28,14 +29,10 @@ def agreement_rows():
         if (rest[:, 2] <= limit).sum() < 3:
             continue  # it can turn about what holds it, so the equilibrium is not unique
         gravity = 0.005 * 2e4 / (30.0 * (high[2] - low[2]))
-        arguments = ["--static", "--poisson", 0.3, "--gravity", 0, 0, -gravity, "--pin",
-                     f"z<={limit!r}"]
-        ends = []
-        for solver in ("PD", "FEM corotated"):
-            simulate(path, *arguments, *SOLVERS[solver], "--output", probe)
-            ends.append(positions(probe))
+        arguments = ["--static", "--poisson", 0.3, "--gravity", 0, 0, -gravity, "--pin", f"z<={limit!r}"]
+        pd, fem = (settled(path, *arguments, *SOLVERS[solver])[0] for solver in ("PD", "FEM corotated"))
         size = np.linalg.norm(high - low)
-        moved, apart = (np.linalg.norm(ends[1] - x, axis=1).max() / size for x in (rest, ends[0]))
+        moved, apart = (np.linalg.norm(fem - x, axis=1).max() / size for x in (rest, pd))
         rows.append((f"{path.parent.name}/{path.name}", len(rest), f"{moved:.4f}", f"{apart:.1e}"))
     return rows or [("skipped: ../shared/data/meshes/tet is missing", *"---")]
 
@@ -48,7 +45,7 @@ def prism_rows():
         if not path.exists():
             continue
         result = OUTPUT / "prism.vtu"
-        held = simulate(path, "--static", "--pin", "all", "--output", result)[-1]
+        held = static(path, "--pin", "all", "--output", result)
         rest, tets = positions(result), cells(result)
         low, high = rest.min(axis=0), rest.max(axis=0)
         length = high[along] - low[along]
@@ -58,9 +55,9 @@ def prism_rows():
         bending, shear = length**4 / (8.0 * young * inertia / area), length**2 / (2.0 * 0.9 * 0.5 * young)
         gravity = 1e-3 * length / (density * (bending + shear))
         axis, end = "xyz"[along], high[along] - 1e-6 * length
-        row = simulate(path, "--static", "--young", young, "--poisson", 0, "--density", density, "--gravity",
-                       *(-gravity * np.eye(3)[down]), "--pin", f"{axis}<{float(low[along] + 1e-6 * length)!r}", "--probe",
-                       f"{axis}>{float(end)!r}", "--tolerance", 1e-6, *SOLVERS["FEM corotated"])[-1]
+        row = static(path, "--young", young, "--poisson", 0, "--density", density, "--gravity",
+                     *(-gravity * np.eye(3)[down]), "--pin", f"{axis}<{float(low[along] + 1e-6 * length)!r}", "--probe",
+                     f"{axis}>{float(end)!r}", "--tolerance", 1e-6, *SOLVERS["FEM corotated"])
         rows.append((name, len(tets), f"{length * math.sqrt(area / inertia):.1f}",
                      f"{-row['probe_' + 'xyz'[down] + '_m'] / (1e-3 * length):.4f}"))
     return rows
@@ -73,8 +70,8 @@ def formulation_rows():
     for young, poisson, density in ((1e6, 0.3, 1000.0), (2e4, 0.3, 200.0), (3e3, 0.45, 200.0)):
         other = beam_tip(rest, tets, young, poisson, density, 9.81)
         for solver in ("PD", "FEM corotated"):
-            row = simulate(mesh, "--static", "--young", young, "--poisson", poisson, "--density", density, "--gravity", 0, 0,
-                           -9.81, "--pin", "x<1e-9", "--probe", "x>0.159999", "--tolerance", 1e-6, *SOLVERS[solver])[-1]
+            row = static(mesh, "--young", young, "--poisson", poisson, "--density", density, "--gravity", 0, 0, -9.81,
+                         "--pin", "x<1e-9", "--probe", "x>0.159999", "--tolerance", 1e-6, *SOLVERS[solver])
             tip = np.array([row[f"probe_{axis}_m"] for axis in "xyz"])
             rows.append((f"{young:g}", poisson, solver, f"{1e3 * tip[0]:.4f}, {1e3 * tip[2]:.4f}",
                          f"{np.linalg.norm(tip - other) / np.linalg.norm(other):.0e}"))
@@ -85,8 +82,8 @@ def bending_rows():
     mesh, _ = box("bar", (20, 10, 3), lambda x, y, z: (0.2 * x, 0.1 * y, 0.03 * z))
     rows = []
     for name, options in SOLVERS.items():
-        row = simulate(mesh, "--static", "--poisson", 0.45, "--pin", "x<1e-9", "--load", "x>0.199999", 0, 0, -0.35,
-                       "--probe", "x>0.199999", "--tolerance", 1e-6, *options)[-1]
+        row = static(mesh, "--poisson", 0.45, "--pin", "x<1e-9", "--load", "x>0.199999", 0, 0, -0.35, "--probe",
+                     "x>0.199999", "--tolerance", 1e-6, *options)
         change = 100.0 * (row["volume_m3"] / (0.2 * 0.1 * 0.03) - 1.0)
         rows.append((name, f"{-1e3 * row['probe_z_m']:.1f}", f"{change:+.2f}"))
     return rows
@@ -96,12 +93,10 @@ def recovery_rows():
     mesh, rest = box("sponge", (10, 5, 1), lambda x, y, z: (0.2 * x, 0.1 * y, 0.03 * z))
     rows = []
     for (name, options), start in itertools.product(SOLVERS.items(), ("flat", "inside_out", "random")):
-        result = OUTPUT / "recovered.vtu"
-        table = simulate(mesh, "--start", start, "--steps", 150, "--damping", 0.3, *options, "--output", result)
-        a, b = rest - rest.mean(axis=0), positions(result) - positions(result).mean(axis=0)
-        u, _, v = np.linalg.svd(b.T @ a)
-        rotation = u @ np.diag([1.0, 1.0, np.sign(np.linalg.det(u @ v))]) @ v
-        distance = np.linalg.norm(b - a @ rotation.T, axis=1).max()
+        shape, table = settled(mesh, "--start", start, "--steps", 150, "--damping", 0.3, *options)
+        a, b = (places - places.mean(axis=0) for places in (rest, shape))
+        rotation, _ = Rotation.align_vectors(b, a)
+        distance = np.linalg.norm(b - rotation.apply(a), axis=1).max()
         first, last = (table[k]["elastic_energy_j"] for k in (0, -1))
         rows.append((name, start, f"{first:.2e}", f"{last:.1e}", f"{1e3 * distance:.1e}"))
     return rows

@@ -3,7 +3,7 @@ import math
 
 import numpy as np
 
-from validation.simulate_tool import OUTPUT, SOLVERS, box, positions, simulate
+from validation.simulate_tool import OUTPUT, SOLVERS, box, settled, static
 
 
 # Each refinement study: cells across -> (tets, result / reference).
@@ -12,40 +12,37 @@ def cantilever(n, *solver):
     length, height, young, deflection = 1.0, 0.1, 1e6, 1e-3
     mesh, _ = box(f"cantilever_{n}", (10 * n, n, n), lambda x, y, z: (length * x, height * y, height * z))
     force = deflection * 3.0 * young * height**4 / 12.0 / length**3
-    row = simulate(mesh, "--static", "--young", young, "--poisson", 0, "--pin", "x<1e-9", "--load", "x>0.999999", 0, 0,
-                   -force, "--probe", "x>0.999999", "--tolerance", 1e-6, *solver)[-1]
+    row = static(mesh, "--young", young, "--poisson", 0, "--pin", "x<1e-9", "--load", "x>0.999999", 0, 0, -force,
+                 "--probe", "x>0.999999", "--tolerance", 1e-6, *solver)
     return 60 * n**3, -row["probe_z_m"] / deflection
 
 
 def sag(n, *solver):
     length, young, density, gravity = 1.0, 1e6, 1000.0, 0.1
     mesh, _ = box(f"sag_{n}", (n, n, 4 * n), lambda x, y, z: (0.2 * x, 0.2 * y, length * z))
-    row = simulate(mesh, "--static", "--young", young, "--poisson", 0, "--density", density, "--gravity", 0, 0, -gravity,
-                   "--pin", "z>0.999999", "--probe", "z<1e-9", "--tolerance", 1e-6, *solver)[-1]
+    row = static(mesh, "--young", young, "--poisson", 0, "--density", density, "--gravity", 0, 0, -gravity, "--pin",
+                 "z>0.999999", "--probe", "z<1e-9", "--tolerance", 1e-6, *solver)
     return 24 * n**3, -row["probe_z_m"] / (density * gravity * length**2 / (2.0 * young))
 
 
 def cook(n, *solver):
     young, force = 1e6, 100.0  # far above the rounding of the forces, small against the shape
     mesh, _ = box(f"cook_{n}", (n, n, 1), lambda s, t, u: (48.0 * s, 44.0 * s + t * (44.0 - 28.0 * s), u))
-    row = simulate(mesh, "--static", "--young", young, "--poisson", 1.0 / 3.0, "--pin", "x<1e-9", "--load", "x>47.99999",
-                   0, force, 0, "--probe", "x>47.99999 & y>51.99999 & y<52.00001", *solver)[-1]
+    row = static(mesh, "--young", young, "--poisson", 1.0 / 3.0, "--pin", "x<1e-9", "--load", "x>47.99999", 0, force, 0,
+                 "--probe", "x>47.99999 & y>51.99999 & y<52.00001", *solver)
     return 6 * n**2, row["probe_y_m"] / (23.96 * force / young)
 
 
 def twist(n, *solver):
     side, young, poisson, torque = 0.1, 1e6, 0.3, 1e-3
-    mesh, rest = box(f"twist_{n}", (10 * n, n, n),
-                     lambda x, y, z: (x, side * (y - 0.5), side * (z - 0.5)))
+    mesh, rest = box(f"twist_{n}", (10 * n, n, n), lambda x, y, z: (x, side * (y - 0.5), side * (z - 0.5)))
     end = np.flatnonzero(rest[:, 0] > 1.0 - 1e-9)
     around = np.stack([np.zeros(len(end)), -rest[end, 2], rest[end, 1]], axis=1)
     around *= torque / (np.cross(rest[end], around)[:, 0].sum())
     loads = OUTPUT / f"twist_{n}.csv"
     loads.write_text("".join(f"{v},{x!r},{y!r},{z!r}\n" for v, (x, y, z) in zip(end.tolist(), around.tolist())))
-    result = OUTPUT / f"twist_{n}.vtu"
-    simulate(mesh, "--static", "--young", young, "--poisson", poisson, "--pin", "x<1e-9", "--loads", loads, "--tolerance",
-             1e-6, "--output", result, *solver)
-    move = positions(result) - rest
+    move = settled(mesh, "--static", "--young", young, "--poisson", poisson, "--pin", "x<1e-9", "--loads", loads,
+                   "--tolerance", 1e-6, *solver)[0] - rest
 
     def angle(x):
         at = np.abs(rest[:, 0] - x) < 1e-9

@@ -19,8 +19,8 @@ NODE = ["--node-defaults"]
 
 def run_tool(mesh, *arguments):
     print(f"== {mesh.name} {' '.join(map(str, arguments))[:100]}", file=sys.stderr)
-    command = [DEVEL / "env.sh", DEVEL / "lib/softbody_sim/simulate", mesh, *map(str, arguments)]
-    return command, subprocess.run(command, capture_output=True, text=True, check=False)
+    command = [DEVEL / "env.sh", DEVEL / "lib/softbody_sim/simulate", mesh, *arguments]
+    return subprocess.run(list(map(str, command)), capture_output=True, text=True, check=False)
 
 
 def rows_of(text):
@@ -30,19 +30,33 @@ def rows_of(text):
 
 def simulate(mesh, *arguments):
     """The rows of one run of the tool."""
-    command, run = run_tool(mesh, *arguments)
+    run = run_tool(mesh, *arguments)
     if run.returncode != 0:
-        sys.exit(f"validate: {' '.join(map(str, command))} ended with {run.returncode}: {run.stderr}")
+        sys.exit(f"validate: {' '.join(run.args)} ended with {run.returncode}: {run.stderr}")
     return rows_of(run.stdout)
 
 
 def settle(mesh, *arguments):
     """The row of a static run, or None if the tool says that it has not converged."""
-    _, run = run_tool(mesh, "--static", *arguments)
+    run = run_tool(mesh, "--static", *arguments)
     rows = rows_of(run.stdout)
-    if run.returncode == 0 or (rows and not rows[-1]["converged"]):
-        return rows[-1] if run.returncode == 0 else None
+    if run.returncode == 0:
+        return rows[-1]
+    if rows and not rows[-1]["converged"]:
+        return None
     sys.exit(f"validate: a static run ended with {run.returncode}: {run.stderr}")
+
+
+def static(mesh, *arguments):
+    """The row of a static run that converges."""
+    return simulate(mesh, "--static", *arguments)[-1]
+
+
+def settled(mesh, *arguments):
+    """The vertices at the end of a run, and its rows."""
+    result = OUTPUT / "result.vtu"
+    rows = simulate(mesh, *arguments, "--output", result)
+    return positions(result), rows
 
 
 def box(name, cells, place):
@@ -50,16 +64,12 @@ def box(name, cells, place):
     shape = [n + 1 for n in cells]
     grid = np.stack(np.meshgrid(*[np.linspace(0.0, 1.0, n) for n in shape], indexing="ij"), axis=-1).reshape(-1, 3)
     vertices = np.array([place(*p) for p in grid])
-    tets = []
-    for corner in itertools.product(*map(range, cells)):
-        for order in itertools.permutations(range(3)):
-            path = [np.array(corner)]
-            for axis in order:
-                path.append(path[-1] + np.eye(3, dtype=int)[axis])
-            tet = [int(np.ravel_multi_index(p, shape)) for p in path]
-            if np.linalg.det(vertices[tet[1:]] - vertices[tet[0]]) < 0.0:
-                tet[2], tet[3] = tet[3], tet[2]
-            tets.append(tet)
+    paths = [np.cumsum([np.zeros(3, int), *np.eye(3, dtype=int)[list(order)]], axis=0)
+             for order in itertools.permutations(range(3))]
+    corners = np.array(list(itertools.product(*map(range, cells))))[:, None, None]
+    tets = np.ravel_multi_index(np.moveaxis(corners + paths, -1, 0), shape).reshape(-1, 4)
+    inverted = np.linalg.det(vertices[tets[:, 1:]] - vertices[tets[:, :1]]) < 0.0
+    tets[inverted] = tets[inverted][:, [0, 1, 3, 2]]
     path = OUTPUT / f"{name}.node"
     path.write_text(f"{len(vertices)} 3 0 0\n" + "".join(f"{i} {x!r} {y!r} {z!r}\n" for i, (x, y, z) in
                                                           enumerate(vertices.tolist())))
