@@ -5,7 +5,7 @@ scanned models and with the true mesh. Writes docs/scans.md; recordings (some 90
 evaluation/scans. Each recording is removed after its last use. Run by `make scans`.
 
 Usage, in scripts/: python3 -m evaluation.scans [--keep] [ROW...]
-With rows: only these are measured, and nothing is written
+With rows: only these are measured, and nothing is written. Rows that track need the rows of their models
   --keep   keeps the recordings; a later run uses them again
 """
 import dataclasses
@@ -24,7 +24,6 @@ FOLDER = OUTPUT / "scans"
 LARGER = 1.5  # than the sponge: covers markers
 TRUE = {"sponge": ROOT / "config/sponge.obj", "doll": ROOT / "config/doll.obj", "toy": FOLDER / "toy.obj",
         "large": FOLDER / "large.obj"}
-WORDS = {"sponge": "sponge", "doll": "doll", "toy": "toy with thin legs"}
 NO_SHEET = ("--sheet", "none")
 MODELS = ("sponge_walk", "sponge_flip")  # rows whose models are tracked
 
@@ -40,10 +39,12 @@ class Recording:
         words = [self.body, self.scene, *(word.lstrip("-") for word in self.arguments)]
         return FOLDER / f"{'_'.join(words)}.bag"
 
-    def camera_arguments(self):
-        scene = f"doll_{self.scene}" if self.body == "doll" else self.scene
-        body = ("--body", TRUE[self.body]) if self.body in ("toy", "large") else ()
-        return ("--scene", scene, *body, *self.arguments, "--output", self.path)
+    def make(self):
+        """Records it, if it is not there yet."""
+        if not self.path.exists():
+            scene = f"doll_{self.scene}" if self.body == "doll" else self.scene
+            body = ("--body", TRUE[self.body]) if self.body in ("toy", "large") else ()
+            tool("virtual_camera", "--scene", scene, *body, *self.arguments, "--output", self.path)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -54,18 +55,8 @@ class Row:
     known_motion: bool = True  # by the sheet or tf
     fault: tuple = ()  # `inject` with its arguments, or a fault of faulty_bags.py
 
-    @property
-    def body(self):
-        return self.recordings[0].body
 
-    @property
-    def result(self):
-        """The file of its result."""
-        return FOLDER / f"{self.name}.json"
-
-
-def body_rows(body):
-    words = WORDS[body]
+def body_rows(body, words):
     # The faulty recordings are made of the sponge's walk, with its labels.
     walk = Recording(body, "walk", ("--labels",) if body == "sponge" else ())
     return [
@@ -78,50 +69,31 @@ def body_rows(body):
             (Recording(body, "walk", (*NO_SHEET, "--texture", "weak")),), False)]
 
 
-def good_rows():
-    return [
-        *(row for body in WORDS for row in body_rows(body)),
+WALK = (Recording("sponge", "walk", ("--labels",)),)
+PARTS = {
+    "Recordings": [
+        *body_rows("sponge", "sponge"), *body_rows("doll", "doll"), *body_rows("toy", "toy with thin legs"),
         Row("turntable", "sponge: turntable", (Recording("sponge", "turntable"),)),
         Row("hand_jerks", "sponge: a hand passes, and jerks of 0.3 m/s",
             (Recording("sponge", "walk_hand", ("--jerks",)),)),
-        Row("seed", "sponge: walk, another seed", (Recording("sponge", "walk", ("--seed", "2")),))]
-
-
-def faulty_rows():
-    walk = (Recording("sponge", "walk", ("--labels",)),)
-    return [
-        Row("fault_drop", "30 % of the images dropped", walk, fault=("inject", "--drop", "0.3")),
+        Row("seed", "sponge: walk, another seed", (Recording("sponge", "walk", ("--seed", "2")),))],
+    "Faulty recordings": [
+        Row("fault_drop", "30 % of the images dropped", WALK, fault=("inject", "--drop", "0.3")),
         Row("fault_jerks", "jerks of 0.3 m/s", (Recording("sponge", "walk", ("--jerks",)),)),
         Row("fault_hand", "a hand passes", (Recording("sponge", "walk_hand"),)),
-        Row("fault_flicker", "the exposure flickers by 40 %", walk, fault=("flicker",)),
-        Row("fault_black", "black object: no depth on it", walk, fault=("black",)),
-        Row("fault_shiny", "shiny object: 30 % of its depth missing, 10 % up to 60 mm wrong", walk, fault=("shiny",)),
+        Row("fault_flicker", "the exposure flickers by 40 %", WALK, fault=("flicker",)),
+        Row("fault_black", "black object: no depth on it", WALK, fault=("black",)),
+        Row("fault_shiny", "shiny object: 30 % of its depth missing, 10 % up to 60 mm wrong", WALK, fault=("shiny",)),
         Row("fault_large", "object covers a part of the markers", (Recording("large", "walk"),)),
-        Row("fault_no_depth", "no depth topic", walk, fault=("no_depth",)),
-        Row("fault_millimetres", "depth in mm, called m", walk, fault=("millimetres",)),
-        Row("fault_no_info", "no camera_info", walk, fault=("no_info",)),
-        Row("fault_half", "only half of the walk", walk, fault=("half",)),
-        Row("fault_cut_off", "recording cut off in the middle of a write", walk, fault=("cut_off",)),
-        Row("fault_hidden_sheet", "sheet not seen for a third of the time", walk, fault=("hidden_sheet",))]
-
-
-def tracking_rows():
-    """Scenes that track the sponge with its true mesh and with scanned models; its recording, then theirs."""
-    scanned = dict.fromkeys(recording for row in good_rows() if row.name in MODELS for recording in row.recordings)
-    return [Row(f"track_{scene}", f"sponge: {scene}", (Recording("sponge", scene), *scanned))
-            for scene in ("bend", "push", "touch")]
-
-
-def make_bodies():
-    FOLDER.mkdir(parents=True, exist_ok=True)
-    write_toy(TRUE["toy"])
-    write_scaled(TRUE["sponge"], LARGER, TRUE["large"])
-
-
-def record(recordings):
-    for recording in recordings:
-        if not recording.path.exists():
-            tool("virtual_camera", *recording.camera_arguments())
+        Row("fault_no_depth", "no depth topic", WALK, fault=("no_depth",)),
+        Row("fault_millimetres", "depth in mm, called m", WALK, fault=("millimetres",)),
+        Row("fault_no_info", "no camera_info", WALK, fault=("no_info",)),
+        Row("fault_half", "only half of the walk", WALK, fault=("half",)),
+        Row("fault_cut_off", "recording cut off in the middle of a write", WALK, fault=("cut_off",)),
+        Row("fault_hidden_sheet", "sheet not seen for a third of the time", WALK, fault=("hidden_sheet",))],
+    # Scenes that track the sponge with its true mesh and with scanned models.
+    "Tracking with the scanned model": [Row(f"track_{scene}", f"sponge: {scene}", (Recording("sponge", scene),))
+                                        for scene in ("bend", "push", "touch")]}
 
 
 def with_fault(row):
@@ -138,7 +110,6 @@ def with_fault(row):
 
 def scan(row):
     """Makes a model with default settings."""
-    record(row.recordings)
     bags, model, log = with_fault(row), FOLDER / row.name, FOLDER / f"{row.name}.log"
     shutil.rmtree(model, ignore_errors=True)
     code, seconds, usage = run_measured("scan_model", *bags, "--output", model, log=log)
@@ -147,16 +118,8 @@ def scan(row):
     result = {"code": code, "seconds": seconds, "cpu_seconds": usage.ru_utime + usage.ru_stime,
               "memory_gb": 1024e-9 * usage.ru_maxrss, "text": log.read_text()}
     if code in (0, 3):
-        result["report"] = evaluate("--model", model, TRUE[row.body])
+        result["report"] = evaluate("--model", model, TRUE[row.recordings[0].body])
     return result
-
-
-def scanned_object(model):
-    """The object YAML of a scanned model; one of another commit is made again."""
-    row = next(row for row in good_rows() if row.name == model)
-    if not row.result.exists() or json.loads(row.result.read_text())["commit"] != commit():
-        measure(row, scan)
-    return FOLDER / model / "object.yaml"
 
 
 def track(row, description):
@@ -170,41 +133,40 @@ def track(row, description):
 
 def track_all(row):
     """Tracks a scene with each mesh."""
-    record(row.recordings[:1])
     return {"true": track(row, ROOT / "config/sponge.yaml"),
-            "scanned": {model: track(row, scanned_object(model)) for model in MODELS}}
-
-
-def measure(row, how):
-    """Measures a row; the result is kept in evaluation/scans."""
-    result = {"commit": commit(), **how(row)}
-    row.result.write_text(json.dumps(result, indent=1))
-    return result
+            "scanned": {model: track(row, FOLDER / model / "object.yaml") for model in MODELS}}
 
 
 def perform(rows, keep):
-    make_bodies()
-    start, tracking = time.monotonic(), tracking_rows()
+    """{name of a row: its result}. The results are kept in evaluation/scans, too."""
+    FOLDER.mkdir(parents=True, exist_ok=True)
+    write_toy(TRUE["toy"])
+    write_scaled(TRUE["sponge"], LARGER, TRUE["large"])
+    start, results = time.monotonic(), {}
     for done, row in enumerate(rows, 1):
-        result = measure(row, track_all if row in tracking else scan)
+        for recording in row.recordings:
+            recording.make()
+        result = {"commit": commit(), **(track_all if row.name.startswith("track_") else scan)(row)}
+        results[row.name] = result
+        (FOLDER / f"{row.name}.json").write_text(json.dumps(result, indent=1))
         print(f"[{done}/{len(rows)}, {time.monotonic() - start:.0f} s]", *map(row_of, rows_of(row, result)),
               file=sys.stderr, flush=True)
         later = {recording for other in rows[done:] for recording in other.recordings}
         for recording in {*row.recordings} - later:
             if not keep:
                 recording.path.unlink(missing_ok=True)
+    return results
 
 
 def main():
-    parts = {"Recordings": good_rows(), "Faulty recordings": faulty_rows(),
-             "Tracking with the scanned model": tracking_rows()}
-    known = {row.name: row for part in parts.values() for row in part}
+    known = {row.name: row for part in PARTS.values() for row in part}
     names = chosen(known, [word for word in sys.argv[1:] if word != "--keep"])
-    perform([known[name] for name in names], "--keep" in sys.argv)
-    tables = {heading: [cells for row in part if row.name in names
-                        for cells in rows_of(row, json.loads(row.result.read_text()))]
-              for heading, part in parts.items()}
-    publish("scans.md", "scans", tables, complete=names == list(known))
+    if any(name.startswith("track_") for name in names):
+        names = list(dict.fromkeys((*MODELS, *names)))
+    results = perform([row for name, row in known.items() if name in names], "--keep" in sys.argv)
+    tables = {heading: [cells for row in part if row.name in results for cells in rows_of(row, results[row.name])]
+              for heading, part in PARTS.items()}
+    publish("scans.md", "scans", tables, complete=len(results) == len(known))
 
 
 if __name__ == "__main__":

@@ -23,15 +23,19 @@ def volume_error(result):
     return abs(result["report"]["volume_ratio"] - 1.0)
 
 
-def missed(row, result):
-    """The goals that a model misses."""
+def verdict(goals):
+    """yes, or no with the goals that are missed."""
+    missed = [name for name, reached in goals.items() if not reached]
+    return "no: " + ", ".join(missed) if missed else "yes"
+
+
+def model_verdict(row, result):
     mean, most = KNOWN_MM if row.known_motion else FREE_MM
     volume = TURNED_OVER if len(row.recordings) > 1 else CLOSED_FLAT
     seconds = min(result["seconds"], result["cpu_seconds"])
-    checks = {"mean": seen(result)[0] <= mean, "99 %": seen(result)[1] <= most,
-              "volume": volume_error(result) <= volume, "time": seconds <= SECONDS * len(row.recordings),
-              "memory": result["memory_gb"] <= MEMORY_GB}
-    return [name for name, reached in checks.items() if not reached]
+    return verdict({"mean": seen(result)[0] <= mean, "99 %": seen(result)[1] <= most,
+                    "volume": volume_error(result) <= volume, "time": seconds <= SECONDS * len(row.recordings),
+                    "memory": result["memory_gb"] <= MEMORY_GB})
 
 
 def wrong(result):
@@ -53,23 +57,16 @@ def refusal(row, result):
     return f"{'no model' if result['code'] == 1 else 'CRASH'}: {sentence}"
 
 
-def cost(result):
-    return [f"{result['seconds']:.0f}", f"{result['cpu_seconds']:.0f}", f"{result['memory_gb']:.1f}"]
-
-
-def good_row(row, result):
+def model_row(row, result):
+    is_faulty = row.name.startswith("fault_")
+    cost = [f"{result['seconds']:.0f}", f"{result['cpu_seconds']:.0f}", f"{result['memory_gb']:.1f}"]
     if "report" not in result:
-        return [f"`{row.name}`", row.words, *4 * ["-"], *cost(result), refusal(row, result), result["commit"]]
-    misses = missed(row, result)
-    reached = "no: " + ", ".join(misses) if misses else "yes"
-    return [f"`{row.name}`", row.words, *figures(result), *cost(result), reached, result["commit"]]
-
-
-def faulty_row(row, result):
-    if "report" not in result:
-        return [f"`{row.name}`", row.words, *4 * ["-"], refusal(row, result), result["commit"]]
-    answer = "WRONG model" if wrong(result) else "right model"
-    return [f"`{row.name}`", row.words, *figures(result), answer, result["commit"]]
+        cells, answer = 4 * ["-"], refusal(row, result)
+    elif is_faulty:
+        cells, answer = figures(result), "WRONG model" if wrong(result) else "right model"
+    else:
+        cells, answer = figures(result), model_verdict(row, result)
+    return [f"`{row.name}`", row.words, *cells, *([] if is_faulty else cost), answer, result["commit"]]
 
 
 def visible(report, metric):
@@ -84,14 +81,11 @@ def tracking_rows(scene, result):
         cells = [number(value) for one, other in pairs for value in (one, other, other / one)]
         bounds = [percent(get(one, "calibration.within_90_visible"), 0) for one in (true, report)]
         share = tracking_share(report)
-        misses = {"error": pairs[0][1] > LARGER_ERROR * pairs[0][0], "tracked": share < tracking_share(true)}
-        missed_goals = [name for name, is_missed in misses.items() if is_missed]
-        rows.append([f"`{scene.name}`", scene.words, f"`{model}`", percent(share, 0), *cells, *bounds,
-                     "no: " + ", ".join(missed_goals) if missed_goals else "yes", result["commit"]])
+        goals = {"error": pairs[0][1] <= LARGER_ERROR * pairs[0][0], "tracked": share >= tracking_share(true)}
+        rows.append([f"`{scene.name}`", scene.words, f"`{model}`", percent(share, 0), *cells, *bounds, verdict(goals),
+                     result["commit"]])
     return rows
 
 
 def rows_of(row, result):
-    if "true" in result:
-        return tracking_rows(row, result)
-    return [(faulty_row if row.name.startswith("fault_") else good_row)(row, result)]
+    return tracking_rows(row, result) if "true" in result else [model_row(row, result)]
