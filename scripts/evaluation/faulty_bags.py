@@ -1,4 +1,5 @@
 """Copies the camera's topics of a virtual recording, which has labels (virtual_camera --labels), with a fault."""
+import collections
 import os
 import shutil
 
@@ -11,6 +12,9 @@ FLICKER = 0.4  # largest change of the brightness
 BLACK = 0.08  # of the brightness
 HOLES, WRONG, BLOCK_PX, WRONG_MM = 0.3, 0.1, 24, 60  # of a shiny body: shares; blocks with wrong depth, largest error
 
+# What a fault may know of a message: the share of the time that is over, which pixels show the body, and what it keeps.
+Frame = collections.namedtuple("Frame", "share body random kept")
+
 
 def pixels(image):
     """A copy of the pixels, colour as (rows, columns, 3), depth in mm as (rows, columns)."""
@@ -21,49 +25,20 @@ def pixels(image):
     return numpy.frombuffer(image.data, kind).reshape(image.height, image.width, *channels).copy()
 
 
-def with_pixels(image, changed):
-    image.data = changed.tobytes()
-    return image
-
-
 def brighter(image, factors):
-    return with_pixels(image, numpy.clip(factors * pixels(image), 0, 255).astype(numpy.uint8))
+    return numpy.clip(factors * pixels(image), 0, 255).astype(numpy.uint8)
 
 
-def no_depth(topic, message, _frame):
-    return None if "depth" in topic else message
-
-
-def no_info(topic, message, _frame):
-    return None if topic.endswith("camera_info") else message
-
-
-def millimetres(topic, message, _frame):
+def millimetres(image, _frame):
     """The numbers of millimetres, in the encoding of metres."""
-    if topic != DEPTH:
-        return message
-    message = with_pixels(message, pixels(message).astype("<f4"))
-    message.encoding, message.step = "32FC1", 4 * message.width
-    return message
+    depth = pixels(image).astype("<f4")
+    image.encoding, image.step = "32FC1", 4 * image.width
+    return depth
 
 
-def flicker(topic, message, frame):
-    return brighter(message, 1.0 + FLICKER * frame.random.uniform(-1.0, 1.0)) if topic == COLOR else message
-
-
-def black(topic, message, frame):
-    if topic == COLOR:
-        return brighter(message, numpy.where(frame.body(), BLACK, 1.0)[..., None])
-    return with_pixels(message, numpy.where(frame.body(), 0, pixels(message))) if topic == DEPTH else message
-
-
-def shiny(topic, message, frame):
+def shiny(image, frame):
     """Where the body is bright there is no depth. Other places have the depth of something that is mirrored."""
-    if topic == COLOR:
-        frame.kept["brightness"] = pixels(message).mean(axis=-1)
-    if topic != DEPTH:
-        return message
-    depth, body, brightness = pixels(message), frame.body(), frame.kept["brightness"]
+    depth, body, brightness = pixels(image), frame.body, frame.kept["brightness"]
     blocks = [(side + BLOCK_PX - 1) // BLOCK_PX for side in depth.shape]
 
     def per_pixel(values):
@@ -73,62 +48,49 @@ def shiny(topic, message, frame):
     depth[wrong] = (depth + per_pixel(frame.random.uniform(-WRONG_MM, WRONG_MM, blocks)))[wrong]
     if body.any():
         depth[body & (brightness > numpy.quantile(brightness[body], 1.0 - HOLES))] = 0
-    return with_pixels(message, depth)
+    return depth
 
 
-def half(_topic, message, frame):
-    return message if frame.share < 0.5 else None
+def kept_brightness(image, frame):
+    frame.kept["brightness"] = pixels(image).mean(axis=-1)
+    return pixels(image)
 
 
-def hidden_sheet(topic, message, frame):
+def hidden_sheet(image, frame):
     """Only the body keeps its colour for the middle third of the time."""
-    if topic != COLOR or not 1.0 / 3.0 <= frame.share < 2.0 / 3.0:
-        return message
-    return with_pixels(message, numpy.where(frame.body()[..., None], pixels(message), 128).astype(numpy.uint8))
+    hides = 1.0 / 3.0 <= frame.share < 2.0 / 3.0
+    return numpy.where(frame.body[..., None] | (not hides), pixels(image), 128).astype(numpy.uint8)
 
 
-class Frame:
-    """What a fault may know of a message's frame."""
-
-    def __init__(self, stamp, share, bodies, kept):
-        self.stamp, self.share, self.bodies, self.kept = stamp, share, bodies, kept
-        self.random = numpy.random.default_rng(stamp.to_nsec() // 1000)
-
-    def body(self):
-        """Which pixels show the body."""
-        packed, shape = self.bodies[self.stamp]
-        return numpy.unpackbits(packed, count=shape[0] * shape[1]).reshape(shape).astype(bool)
-
-
-def bodies_of(bag):
-    """Packed masks of the body, with their shape, by stamp."""
-    found = {}
-    for _, message, _ in bag.read_messages(topics=[LABELS]):
-        mask = pixels(message) == BODY
-        found[message.header.stamp] = numpy.packbits(mask), mask.shape
-    return found
-
-
-def cut_off(recording, output):
-    """As if recording had ended in the middle of a write: rosbag writes the index last."""
-    shutil.copyfile(recording, output)
-    os.truncate(output, int(0.6 * os.path.getsize(output)))
-
-
-FAULTS = {function.__name__: function
-          for function in (no_depth, no_info, millimetres, flicker, black, shiny, half, hidden_sheet)}
+# The other pixels of the images of a topic.
+CHANGES = {
+    "millimetres": {DEPTH: millimetres},
+    "flicker": {COLOR: lambda image, frame: brighter(image, 1.0 + FLICKER * frame.random.uniform(-1.0, 1.0))},
+    "black": {COLOR: lambda image, frame: brighter(image, numpy.where(frame.body, BLACK, 1.0)[..., None]),
+              DEPTH: lambda image, frame: numpy.where(frame.body, 0, pixels(image))},
+    "shiny": {COLOR: kept_brightness, DEPTH: shiny},
+    "hidden_sheet": {COLOR: hidden_sheet}}
+# Which messages are left out, by topic and share of the time.
+MISSING = {"no_depth": lambda topic, _: "depth" in topic, "no_info": lambda topic, _: topic.endswith("camera_info"),
+           "half": lambda _, share: share >= 0.5}
 
 
 def write(fault, recording, output):
+    """Writes the recording with a fault; `cut_off`: as if recording had ended in the middle of a write."""
     if fault == "cut_off":
-        cut_off(recording, output)
+        shutil.copyfile(recording, output)
+        os.truncate(output, int(0.6 * os.path.getsize(output)))  # rosbag writes the index last
         return
+    changes, missing = CHANGES.get(fault, {}), MISSING.get(fault, lambda topic, share: False)
     with rosbag.Bag(str(recording)) as bag, rosbag.Bag(str(output), "w", compression="lz4") as changed:
-        bodies, begin, end, kept = bodies_of(bag), bag.get_start_time(), bag.get_end_time(), {}
+        bodies = {image.header.stamp: pixels(image) == BODY for _, image, _ in bag.read_messages(topics=[LABELS])}
+        begin, end, kept = bag.get_start_time(), bag.get_end_time(), {}
         for topic, message, time in bag.read_messages():
-            if topic.startswith("/ground_truth"):
+            share = (time.to_sec() - begin) / (end - begin)
+            if topic.startswith("/ground_truth") or missing(topic, share):
                 continue
-            stamp = message.header.stamp if topic.startswith("/camera") else time
-            message = FAULTS[fault](topic, message, Frame(stamp, (time.to_sec() - begin) / (end - begin), bodies, kept))
-            if message is not None:
-                changed.write(topic, message, time)
+            if topic in changes:
+                stamp = message.header.stamp
+                frame = Frame(share, bodies[stamp], numpy.random.default_rng(stamp.to_nsec() // 1000), kept)
+                message.data = changes[topic](message, frame).tobytes()
+            changed.write(topic, message, time)
