@@ -4,6 +4,8 @@ import pathlib
 import tempfile
 from dataclasses import dataclass
 
+import numpy
+
 from pages import ROOT
 from tools import evaluate, recording, run_measured, tool
 
@@ -48,46 +50,32 @@ def recorded(folder, width=640):
                      "--duration", "1.5")
 
 
-def subdivided(lines):
-    """An OBJ file's lines with each triangle in four; corners are v/vt with the same or with other numbers."""
-    lists, faces, others, halves = {"v": [], "vt": []}, [], [], {}
-    for line in lines:
-        kind, *words = line.split()
-        if kind in lists:
-            lists[kind].append([float(word) for word in words])
-        elif kind == "f":
-            faces.append([tuple(map(int, word.split("/")[:2])) for word in words])
-        elif kind in ("mtllib", "usemtl"):
-            others.append(line)
-
-    def middle(a, b):
-        """The corner between two corners; made once for each pair of numbers."""
-        for kind, *pair in zip(lists, a, b):
-            key = (kind, *sorted(pair))
-            if key not in halves:
-                lists[kind].append([0.5 * (x + y) for x, y in zip(*(lists[kind][number - 1] for number in pair))])
-                halves[key] = len(lists[kind])
-            yield halves[key]
-
-    for a, b, c in faces:
-        ab, bc, ca = (tuple(middle(*ends)) for ends in ((a, b), (b, c), (c, a)))
-        for face in ((a, ab, ca), (b, bc, ab), (c, ca, bc), (ab, bc, ca)):
-            others.append("f " + " ".join("/".join(map(str, corner)) for corner in face))
-    return [*(" ".join([kind, *(f"{number:.7g}" for number in row)]) for kind in lists for row in lists[kind]), *others]
+def subdivided(points, triangles):
+    """Points and triangles, whose numbers begin with 1, with each triangle in four."""
+    ends = numpy.sort(numpy.stack([triangles, numpy.roll(triangles, -1, axis=1)], axis=2), axis=2).reshape(-1, 2)
+    edges, middles = numpy.unique(ends, axis=0, return_inverse=True)
+    (a, b, c), (ab, bc, ca) = triangles.T, len(points) + 1 + middles.reshape(-1, 3).T
+    return (numpy.concatenate([points, points[edges - 1].mean(axis=1)]),
+            numpy.stack([a, ab, ca, b, bc, ab, c, ca, bc, ab, bc, ca], axis=1).reshape(-1, 3))
 
 
 def vertex_rows(folder):
     rows, config = [], folder / "sponge.yaml"
-    lines = [line for line in (ROOT / "config/sponge.obj").read_text().splitlines() if line.strip()]
+    lines = [line.split() for line in (ROOT / "config/sponge.obj").read_text().splitlines()]
+    corners = numpy.array([[word.split("/")[:2] for word in line[1:]] for line in lines if line[:1] == ["f"]], int)
+    lists = {kind: (numpy.array([line[1:] for line in lines if line[:1] == [kind]], float), corners[..., column])
+             for column, kind in enumerate(("v", "vt"))}
     text = (ROOT / "config/sponge.yaml").read_text()
     for name in ("sponge_cage.obj", "sponge_tets.vtu"):
         text = text.replace(name, str(ROOT / "config" / name))
     config.write_text(text)
     with recorded(folder) as bag:
         for level in range(SUBDIVISIONS + 1):
-            lines = subdivided(lines) if level > 0 else lines
-            (folder / "sponge.obj").write_text("\n".join(lines) + "\n")
-            rows.append((sum(line.startswith("v ") for line in lines), of_tracking(folder, bag, config)))
+            lists = {kind: subdivided(*lists[kind]) if level > 0 else lists[kind] for kind in lists}
+            points = [" ".join([kind, *(f"{number:.7g}" for number in point)]) for kind in lists for point in lists[kind][0]]
+            faces = [f"f {' '.join(map('{}/{}'.format, *pair))}" for pair in zip(lists["v"][1], lists["vt"][1])]
+            (folder / "sponge.obj").write_text("\n".join([*points, *faces]) + "\n")
+            rows.append((len(lists["v"][0]), of_tracking(folder, bag, config)))
     return rows
 
 

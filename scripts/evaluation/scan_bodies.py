@@ -1,5 +1,6 @@
 """Bodies that `make scans` scans and that are not shipped, as OBJ files in metres."""
 import itertools
+import re
 
 import numpy
 
@@ -51,28 +52,21 @@ def surface_nets(values):
     return vertices, numpy.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
 
 
-def write_obj(path, vertices_m, triangles):
-    lines = [*("v {:.6f} {:.6f} {:.6f}".format(*vertex) for vertex in vertices_m),
-             *("f {} {} {}".format(*(triangle + 1)) for triangle in triangles)]
-    path.write_text("\n".join(lines) + "\n")
-
-
 def write_toy(path):
     """A toy on legs of 13 mm, 165 mm long."""
     ends = numpy.array([end for begin, end, _ in RODS] + [begin for begin, _, _ in RODS], float)
     low, high = ends.min(axis=0) - 17.0 - BORDER, ends.max(axis=0) + 17.0 + BORDER
     axes = [numpy.arange(a, b, STEP) for a, b in zip(low, high)]
     vertices, triangles = surface_nets(distances(numpy.stack(numpy.meshgrid(*axes, indexing="ij"), axis=-1)))
-    write_obj(path, 1e-3 * (low + STEP * vertices), triangles)
+    lines = [*("v {:.6f} {:.6f} {:.6f}".format(*vertex) for vertex in 1e-3 * (low + STEP * vertices)),
+             *("f {} {} {}".format(*(triangle + 1)) for triangle in triangles)]
+    path.write_text("\n".join(lines) + "\n")
 
 
 def write_scaled(mesh, factor, path):
-    """A larger copy of an OBJ."""
-    lines = []
-    for line in mesh.read_text().splitlines():
-        words = line.split()
-        if words[:1] == ["v"]:
-            line = " ".join(["v", *(f"{factor * float(word):.6f}" for word in words[1:4])])
-        if words[:1] not in (["mtllib"], ["usemtl"]):
-            lines.append(line)
-    path.write_text("\n".join(lines) + "\n")
+    """A larger copy of an OBJ, without its material."""
+    def scaled(found):
+        return " ".join(["v", *(f"{factor * float(word):.6f}" for word in found[1].split()[:3])])
+
+    text = re.sub(r"^(?:mtllib|usemtl).*\n", "", mesh.read_text(), flags=re.MULTILINE)
+    path.write_text(re.sub(r"^v (.*)$", scaled, text, flags=re.MULTILINE))

@@ -97,11 +97,6 @@ def ratio(report, alone, part):
     return None if mean is None or not usual else mean / usual
 
 
-def reaches_all(report, alone):
-    times = ratio(report, alone, "all")
-    return started(report) and times is not None and times <= MOST_RATIO
-
-
 def median_of(values, with_largest=False):
     """The median of what was measured, and the largest in parentheses."""
     known = [value for value in values if value is not None]
@@ -115,7 +110,8 @@ def start_row(scene, pairs):
             *(median_of((ratio(*pair, part) for pair in pairs), True) for part in PARTS),
             *(" / ".join(median_of(mean_mm(report, part) for report in reports) for reports in zip(*pairs))
               for part in PARTS),
-            sum(reaches_all(*pair) for pair in pairs), sum(elsewhere(report) for report, _ in pairs)]
+            sum(started(pair[0]) and (ratio(*pair, "all") or math.inf) <= MOST_RATIO for pair in pairs),
+            sum(elsewhere(report) for report, _ in pairs)]
 
 
 def outcome(report):
@@ -130,9 +126,9 @@ def free_row(scene, reports):
 
 
 def by_scene(function, scenes):
-    """{scene: the results of a function of scene and seed}."""
+    """(scene, the results of a function of scene and seed)."""
     results = iter(perform([(f"{scene}, seed {seed}", function, scene, seed) for scene in scenes for seed in SEEDS]))
-    return {scene: [next(results) for _ in SEEDS] for scene in scenes}
+    return [(scene, [next(results) for _ in SEEDS]) for scene in scenes]
 
 
 def main():
@@ -142,8 +138,8 @@ def main():
     # What the scenes are compared with comes first; most of them share it.
     by_scene(alone_run, sorted({ALONE[scene] for scene in scenes}))
     starts, free = by_scene(scene_run, scenes), by_scene(free_run, NO_POSE if "clutter" in scenes else ())
-    publish("measured/starts.md", "starts", {"With a rough pose": [start_row(*item) for item in starts.items()],
-                                             "Without a pose": [free_row(*item) for item in free.items()]},
+    publish("measured/starts.md", "starts", {"With a rough pose": [start_row(*found) for found in starts],
+                                             "Without a pose": [free_row(*found) for found in free]},
             complete=scenes == list(ALONE))
 
 
