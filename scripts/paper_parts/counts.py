@@ -3,29 +3,20 @@ import statistics
 
 import rosbag
 
-TOPOLOGIES = ("/softbody/surface/topology", "/softbody/volume/topology")
-STATUS = "/softbody/status"
-
 
 def counts(result):
     """Vertices and polygons of the three models of the uncut body, and the median numbers of features that are bound to
     the body and matched in a frame."""
     with rosbag.Bag(str(result)) as bag:
-        return {"sizes": sizes(bag), "features": features(bag)}
-
-
-def sizes(bag):
-    surface, volume = (next(bag.read_messages(topics=topic)).message for topic in TOPOLOGIES)
+        surface, volume = (next(bag.read_messages(topics=f"/softbody/{body}/topology")).message
+                           for body in ("surface", "volume"))
+        status = [message for _, message, _ in bag.read_messages(topics="/softbody/status")]
     boundary = {vertex for triangle in volume.surface_triangles for vertex in triangle.vertex_indices}
-    return {"High-resolution": [len(surface.rest_vertices), len(surface.triangles)],
-            "Low-resolution": [len(boundary), len(volume.surface_triangles)],
-            "Volumetric": [len(volume.rest_vertices), len(volume.tets)]}
-
-
-def features(bag):
-    status = [message for _, message, _ in bag.read_messages(topics=STATUS)]
-    return {"bound": statistics.median(message.features_total for message in status),
-            "matched": statistics.median(message.features_tracked for message in status)}
+    return {"sizes": {"High-resolution": [len(surface.rest_vertices), len(surface.triangles)],
+                      "Low-resolution": [len(boundary), len(volume.surface_triangles)],
+                      "Volumetric": [len(volume.rest_vertices), len(volume.tets)]},
+            "features": {"bound": statistics.median(message.features_total for message in status),
+                         "matched": statistics.median(message.features_tracked for message in status)}}
 
 
 def tear_times(result, recording):

@@ -39,18 +39,6 @@ def before(uncut, cut):
                      for piece in split(triangle, height)])
 
 
-def after(cut):
-    """Triangles of the skin that touch the cut."""
-    of_cut = np.unique(cut.triangles[cut.cut_triangles])
-    touches = np.isin(cut.triangles, of_cut).any(axis=1) & ~cut.cut_triangles
-    return cut.rest_vertices[cut.triangles[touches]].astype(float)
-
-
-def faces(cut):
-    """Triangles of the faces of the cut."""
-    return cut.rest_vertices[cut.triangles[cut.cut_triangles]].astype(float)
-
-
 def volume(surface):
     """[m^3]"""
     corners = surface.rest_vertices[surface.triangles].astype(float)
@@ -83,6 +71,8 @@ def cut_quality(result):
     topologies = [state.topology for state in softbody.read(str(result))]
     uncut, cut = topologies[0], topologies[-1]
     times = cut_times(str(result))
-    return {"before": of_triangles(before(uncut, cut)), "after": of_triangles(after(cut)),
-            "faces": of_triangles(faces(cut)), "holes": holes(cut), "volume_change": volume(cut) / volume(uncut) - 1,
+    corners, of_cut = cut.rest_vertices[cut.triangles].astype(float), cut.cut_triangles
+    touches = np.isin(cut.triangles, np.unique(cut.triangles[of_cut])).any(axis=1)
+    return {"before": of_triangles(before(uncut, cut)), "after": of_triangles(corners[touches & ~of_cut]),
+            "faces": of_triangles(corners[of_cut]), "holes": holes(cut), "volume_change": volume(cut) / volume(uncut) - 1,
             "cuts": len(times), "median_ms": float(np.median(times)), "worst_ms": max(times)}

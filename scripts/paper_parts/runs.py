@@ -25,29 +25,27 @@ class Run(typing.NamedTuple):
     model: str = ""    # empty: the shipped object
     texture: str = ""  # of the recorded body; empty: that of the virtual camera
 
-    @property
-    def recorded(self):
-        """Which recording it needs: runs with the same one share it."""
-        return self.scene, self.texture
 
-
-def measured(runs, timed, kept):
-    """Reports by run: those of `evaluate`, with more that is read from the result. Runs in `timed` have the machine for
-    themselves. The results of runs in `kept` and the recordings stay until clear_bags(); the reports name them.
-    """
+def measured(parts):
+    """Reports by run of parts.py: those of `evaluate`, with more that is read from the result. Runs of timed parts have
+    the machine for themselves. The results of parts that keep them and the recordings stay until clear_bags(); the
+    reports name them."""
     shutil.rmtree(FOLDER, ignore_errors=True)
     FOLDER.mkdir(parents=True)
+    runs = list(dict.fromkeys(run for part in parts for run in part.runs))
+    timed, kept = ({run for part in parts if part.timed for run in part.runs},
+                   {run for part in parts if part.kept for run in part.runs})
     if any(run.model for run in runs):
         tool("prepare_model", ROOT / "config/doll.obj", "--cage-vertices", COARSE_VERTICES, "--output", FOLDER / COARSE,
              package="softbody_sim")
-    needed = list(dict.fromkeys(run.recorded for run in runs))
-    recordings = dict(zip(needed, perform([(f"{scene} {texture} recorded", record, scene, texture)
-                                           for scene, texture in needed])))
-    work = {run: (run.scene, measure, number, run, recordings[run.recorded], run in kept)
-            for number, run in enumerate(runs)}
-    beside, alone = ([run for run in runs if (run in timed) == is_timed] for is_timed in (False, True))
-    return {**dict(zip(beside, perform([work[run] for run in beside]))),
-            **dict(zip(alone, perform([work[run] for run in alone], jobs=1)))}
+    needed = list(dict.fromkeys((run.scene, run.texture) for run in runs))
+    recordings = dict(zip(needed, perform([(" ".join((*which, "recorded")), record, *which) for which in needed])))
+    reports = {}
+    for is_timed, jobs in ((False, 2), (True, 1)):
+        work = {run: (run.scene, measure, number, run, recordings[run.scene, run.texture], run in kept)
+                for number, run in enumerate(runs) if (run in timed) == is_timed}
+        reports |= zip(work, perform(work.values(), jobs))
+    return reports
 
 
 def clear_bags():
@@ -90,8 +88,3 @@ def track(run, recording, parameters, result):
     parameters.write_text(run.text)
     knife = BOARD_TOOL if run.scene == BOARD else tool_of(run.scene)
     tool("replay", *files, "--timing", *knife, *(("--parameters", parameters) if run.text else ()))
-
-
-def peer_runs():
-    """{body: {simulator: error and time}}"""
-    return json.loads(tool("compare_peers", package="development/softbody_sim"))

@@ -1,15 +1,20 @@
-"""The rows of the measured tables in docs/paper.md."""
+"""The rows of the measured tables in docs/paper.md, and of that in README.md."""
+import json
+
 from evaluation.figures import PAPER_MEAN_ERROR_MM, get
 from pages import number, percent
-from paper_parts import methods
-from paper_parts.methods import CUT_THROUGH, SCENES, TEAR, TIMED, compared, counts, parts
+from paper_parts.methods import COMPARED, COUNTS, CUT_THROUGH, OURS, SCENES, TEAR, TIMED, WITH_PD
 from paper_parts.runs import COARSE, Run
+from paper_parts.time_table import PAPER, totals
+from tools import tool
 
 COARSE_SCENES = tuple(scene for scene in SCENES if scene.startswith("doll_"))
 # Table 1 of the paper: vertices and polygons.
 PAPER_SIZES = {"High-resolution": {"sponge": (522, 1040), "doll": (18650, 7190)},
                "Low-resolution": {"sponge": (132, 260), "doll": (128, 252)},
                "Volumetric": {"sponge": (132, 300), "doll": (154, 494)}}
+WORDS = {"sponge": "sponge", "doll": "soft toy"}
+SHOWN = {PAPER: PAPER, "its method here": WITH_PD, OURS: OURS}  # in README.md: kind of time, method of accuracy
 
 
 def error(report):
@@ -20,32 +25,22 @@ def errors(reports, text):
     return [error(reports[Run(scene, text)]) for scene in SCENES]
 
 
-def counted_features(reports, text):
-    """Matched and bound features of each scene."""
-    found = [reports[Run(scene, text)]["features"] for scene in SCENES]
-    return [f"{number(count['matched'], 0)} of {number(count['bound'], 0)}" for count in found]
+def error_rows(reports, texts):
+    return [[words, *errors(reports, text)] for words, text in texts.items()]
 
 
 def accuracy(reports):
-    rows = [["the paper's own recordings: one average", *[number(PAPER_MEAN_ERROR_MM), "", "", ""]]]
-    rows += [[method, *errors(reports, text)] for method, text in compared().items()]
-    return rows
-
-
-def worth(reports):
-    return [[words, *errors(reports, text)] for words, text in parts().items()]
-
-
-def simulators(reports):
-    return [[words, *errors(reports, text)] for words, text in methods.simulators().items()]
+    return [["the paper's own recordings: one average", number(PAPER_MEAN_ERROR_MM), "", "", ""],
+            *error_rows(reports, COMPARED)]
 
 
 def features(reports):
-    rows = []
-    for words, text in counts().items():
-        cells = zip(errors(reports, text), counted_features(reports, text))
-        rows.append([words, *(f"{error} ({found})" for error, found in cells)])
-    return rows
+    """Errors, with the features that are matched and bound."""
+    def cell(report):
+        count = report["features"]
+        return f"{error(report)} ({number(count['matched'], 0)} of {number(count['bound'], 0)})"
+
+    return [[words, *(cell(reports[Run(scene, text)]) for scene in SCENES)] for words, text in COUNTS.items()]
 
 
 def sizes(reports):
@@ -54,12 +49,11 @@ def sizes(reports):
                       for body in ("sponge", "doll") for item in (0, 1))] for model, of_paper in PAPER_SIZES.items()]
 
 
-def peers(compared_bodies):
+def peers(_):
     """One row for each simulator."""
-    cells = {body: {words: [number(row["mean_mm"]), number(row["median_ms"])] for words, row in rows.items()}
-             for body, rows in compared_bodies.items()}
-    rows = [[words, *(cell for body in cells for cell in cells[body][words])] for words in next(iter(cells.values()))]
-    return rows
+    bodies = json.loads(tool("compare_peers", package="development/softbody_sim")).values()
+    return [[words, *(number(body[words][key]) for body in bodies for key in ("mean_mm", "median_ms"))]
+            for words in next(iter(bodies))]
 
 
 def cutting(reports):
@@ -67,29 +61,43 @@ def cutting(reports):
     rows = []
     for scene in CUT_THROUGH:
         report = reports[Run(scene)]
-        quality, surface = report["quality"], report["cut_surface"]
-        sides = quality["before"], quality["after"], quality["faces"]
-        rows.append([scene, " / ".join(str(side["triangles"]) for side in sides),
-                     " / ".join(number(side["least_deg"]) for side in sides),
-                     " / ".join(percent(side["sharp_share"]) for side in sides),
-                     " / ".join(percent(side["narrow_share"]) for side in sides),
+        quality = report["quality"]
+        columns = (("triangles", str), ("least_deg", number), ("sharp_share", percent), ("narrow_share", percent))
+        rows.append([scene, *(" / ".join(shown(quality[side][key]) for side in ("before", "after", "faces"))
+                              for key, shown in columns),
                      number(1e6 * quality["volume_change"]), quality["holes"], quality["cuts"],
-                     f"{number(quality['median_ms'])} / {number(quality['worst_ms'])}",
-                     f"{number(get(surface, 'distance.mean_mm'))} / {number(get(surface, 'distance.max_mm'))}"])
+                     f"{number(quality['median_ms'])} / {number(quality['worst_ms'])}", surface_distance(report)])
     return rows
+
+
+def surface_distance(report):
+    return " / ".join(number(get(report, f"cut_surface.distance.{key}_mm")) for key in ("mean", "max"))
 
 
 def tearing(reports):
     report = reports[Run(TEAR)]
-    times, surface = report["times"], report["cut_surface"]
-    pieces = report["pieces"]
-    return [[number(times["truth_s"]), ", ".join(number(time) for time in times["tears_s"]),
+    times, pieces = report["times"], report["pieces"]
+    return [[number(times["truth_s"]), ", ".join(map(number, times["tears_s"])),
              f"{pieces['true_pieces']} / {pieces['result_pieces']}", percent(pieces["frames_right"]),
-             f"{number(get(surface, 'distance.mean_mm'))} / {number(get(surface, 'distance.max_mm'))}",
-             number(surface["tilt_deg"]), number(get(report, "vertex_error.visible.mean_mm"))]]
+             surface_distance(report), number(report["cut_surface"]["tilt_deg"]),
+             number(get(report, "vertex_error.visible.mean_mm"))]]
 
 
 def coarse_doll(reports):
     found = [reports[Run(scene, model=COARSE)] for scene in COARSE_SCENES]
     models = found[0]["sizes"]
     return [[models["Low-resolution"][0], models["Volumetric"][1], *map(error, found)]]
+
+
+def readme_rows(reports):
+    """The paper's figures beside ours. Errors: one row for each body, of the two scenes that it has."""
+    rows = []
+    for words, scenes in zip(WORDS.values(), (SCENES[:2], SCENES[2:])):
+        ours = (" / ".join(error(reports[Run(scene, COMPARED[method])]) for scene in scenes)
+                for kind, method in SHOWN.items() if kind != PAPER)
+        rows.append([f"{words}, mean error of scenes {' / '.join(scenes)} [mm]", number(PAPER_MEAN_ERROR_MM), *ours])
+    for what, initialization in (("time of a frame", False), ("initialization without registration", True)):
+        times = totals(reports, initialization)
+        rows.append([f"{' / '.join(WORDS.values())}, {what} [ms]",
+                     *(" / ".join(number(times[(body, kind)]) for body in WORDS) for kind in SHOWN)])
+    return rows

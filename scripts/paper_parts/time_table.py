@@ -1,13 +1,13 @@
 """The rows of Table 2 in docs/paper.md."""
 from evaluation.figures import PAPER_TIMES_MS
 from pages import number
-from paper_parts.methods import TIMED, timed_kinds
+from paper_parts.methods import TIMED, TIMED_KINDS
 from paper_parts.runs import Run
 
 FIRST = " (initialization)"
 STAGES = ("Feature-Point Tracking", "Soft-body Simulation", "Resolution Enhancement")
 PAPER = "paper"
-COLUMNS = [(body, whose) for body in TIMED for whose in (PAPER, *timed_kinds())]
+COLUMNS = [(body, whose) for body in TIMED for whose in (PAPER, *TIMED_KINDS)]
 
 
 def stage_time(report, stage, initialization):
@@ -20,7 +20,7 @@ def stage_times(reports, stage, initialization):
     """Of each column."""
     of_paper = PAPER_TIMES_MS.get(stage + FIRST * initialization, {})
     return [of_paper.get(body) if whose == PAPER else
-            stage_time(reports[Run(TIMED[body], timed_kinds()[whose])], stage, initialization)
+            stage_time(reports[Run(TIMED[body], TIMED_KINDS[whose])], stage, initialization)
             for body, whose in COLUMNS]
 
 
