@@ -72,7 +72,7 @@ def vertex_rows(folder):
     with recorded(folder) as bag:
         for level in range(SUBDIVISIONS + 1):
             lists = {kind: subdivided(*lists[kind]) if level > 0 else lists[kind] for kind in lists}
-            points = [" ".join([kind, *(f"{number:.7g}" for number in point)]) for kind in lists for point in lists[kind][0]]
+            points = [" ".join([kind, *map("{:.7g}".format, point)]) for kind in lists for point in lists[kind][0]]
             faces = [f"f {' '.join(map('{}/{}'.format, *pair))}" for pair in zip(lists["v"][1], lists["vt"][1])]
             (folder / "sponge.obj").write_text("\n".join([*points, *faces]) + "\n")
             rows.append((len(lists["v"][0]), of_tracking(folder, bag, config)))

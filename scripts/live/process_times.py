@@ -38,9 +38,9 @@ def thread_names(pid):
 
 
 def graph_times(found):
-    """CPU time [s] so far of processes (id, environment), by row. A node's callbacks run in the main thread of its process, or in a
-    thread with its name in the manager. All other threads of these processes are "transport". All of a camera with its
-    own process counts as the camera."""
+    """CPU time [s] so far of processes (id, environment), by row. A node's callbacks run in the main thread of its
+    process, or in a thread with its name in the manager. All other threads of these processes are "transport". All of a
+    camera with its own process counts as the camera."""
     processes = {pid: names_of(pid) for pid, _ in found}
     nodelets = {name[:15]: name for program, name in processes.values() if program == "nodelet_loader" and name}
     times = {}

@@ -1,8 +1,8 @@
 """Figures 1 to 9 of Kang et al. 2022, with our bodies."""
 import numpy as np
 
-from paper_figures.drawing import (BLUE, GRAY, GREEN, RED, frame, panels, pixels, show_body, show_edges, show_pale_image,
-                                   show_points, show_tets, show_vectors)
+from paper_figures.drawing import (BLUE, GRAY, GREEN, RED, frame, panels, pixels, show_body, show_edges,
+                                   show_pale_image, show_points, show_tets, show_vectors)
 from paper_figures.overview import overview
 
 MOTIONS = ("bend", "push", "doll_bend", "doll_push")

@@ -74,5 +74,6 @@ def cut_quality(result):
     corners, of_cut = cut.rest_vertices[cut.triangles].astype(float), cut.cut_triangles
     touches = np.isin(cut.triangles, np.unique(cut.triangles[of_cut])).any(axis=1)
     return {"before": of_triangles(before(uncut, cut)), "after": of_triangles(corners[touches & ~of_cut]),
-            "faces": of_triangles(corners[of_cut]), "holes": holes(cut), "volume_change": volume(cut) / volume(uncut) - 1,
+            "faces": of_triangles(corners[of_cut]), "holes": holes(cut),
+            "volume_change": volume(cut) / volume(uncut) - 1,
             "cuts": len(times), "median_ms": float(np.median(times)), "worst_ms": max(times)}

@@ -23,7 +23,7 @@ class WatchedGraph(Graph):
         os.environ["ROSCONSOLE_STDOUT_LINE_BUFFERED"] = "1"
         self.killed = {}  # pid: time of our signal
         self._ending = False
-        super().__init__(program, arguments, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace")
+        super().__init__(program, arguments, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, errors="replace")
         self._reader = threading.Thread(target=self._read, args=(folder / "graph.log",), daemon=True)
         self._reader.start()
 

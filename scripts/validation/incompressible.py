@@ -48,7 +48,8 @@ def incompressible_rows():
             ("Cook's membrane", "thick_cook", 24, (24, 24, 6), membrane, membrane_move, ())):
         mesh, _ = box(f"{label}_{n}", cells, place)
         for solver, (shares, (strain, volume)) in itertools.product(("fem", "pd"), SMOOTHINGS.items()):
-            options = ("--static", *more, "--solver", solver, "--strain-smoothing", strain, "--volume-smoothing", volume)
+            options = ("--static", *more, "--solver", solver, "--strain-smoothing", strain, "--volume-smoothing",
+                       volume)
             rows.append((name, n, solver, shares, *(f"{move(mesh, poisson, options) / reference:.3f}"
                                                      for poisson, reference in zip(RATIOS, exact[move]))))
     return rows
