@@ -1,4 +1,6 @@
 """What the evaluation reads from bags itself."""
+import itertools
+
 import numpy
 import rosbag
 from scipy.spatial.transform import Rotation
@@ -19,13 +21,9 @@ def spread(*paths):
     """How far apart the surfaces of several results are: the mean distance of the vertices, between the two results of
     each frame that are farthest apart."""
     results = [surfaces(path) for path in paths]
-    common = sorted(set.intersection(*(set(result) for result in results)))
-    worst = []
-    for stamp in common:
-        if stamp < common[0] + SETTLED_S:
-            continue
-        shapes = [result[stamp] for result in results]
-        worst.append(max(numpy.linalg.norm(a - b, axis=1).mean() for i, a in enumerate(shapes) for b in shapes[:i]))
+    common = sorted(set.intersection(*map(set, results)))
+    worst = [max(numpy.linalg.norm(a[stamp] - b[stamp], axis=1).mean() for a, b in itertools.combinations(results, 2))
+             for stamp in common if stamp >= common[0] + SETTLED_S]
     return {"starts": len(paths), "frames": len(worst), "mean_mm": float(numpy.mean(worst)) if worst else None,
             "max_mm": float(max(worst)) if worst else None}
 
@@ -41,12 +39,10 @@ def states(path):
 def pose(path, frame="ground_truth_softbody"):
     """True pose of a body in the first frame of a recording."""
     with rosbag.Bag(str(path)) as bag:
-        for _, message, _ in bag.read_messages(topics=["/tf"]):
-            for transform in message.transforms:
-                if transform.child_frame_id == frame:
-                    place, turn = transform.transform.translation, transform.transform.rotation
-                    return [place.x, place.y, place.z, turn.x, turn.y, turn.z, turn.w]
-    return None
+        found = next(each.transform for _, message, _ in bag.read_messages(topics=["/tf"])
+                     for each in message.transforms if each.child_frame_id == frame)
+    place, turn = found.translation, found.rotation
+    return [place.x, place.y, place.z, turn.x, turn.y, turn.z, turn.w]
 
 
 def start(path):

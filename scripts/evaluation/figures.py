@@ -4,8 +4,7 @@ import math
 
 NOISE_FREE = ("bend", "push", "pull", "twist", "press")
 # Scenes with a body of one colour.
-PLAIN_MOTIONS = ("bend", "push", "pull", "twist", "press")
-PLAIN = (*PLAIN_MOTIONS, "still", "rigid")
+PLAIN = (*NOISE_FREE, "still", "rigid")
 # Scenes with hands of the body's own colour: a plain hand has the same colour as a plain body.
 OWN_COLOUR = ("touch", "squeeze")
 # Scenes that every texture is measured in, with both bodies.

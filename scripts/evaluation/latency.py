@@ -6,7 +6,6 @@ Writes docs/latency.md; recordings go to evaluation/ and are removed. Run by `ma
 Usage, in scripts/: python3 -m evaluation.latency [SCENE...]
 With scenes: only these are measured, and nothing is written
 """
-import itertools
 import json
 import subprocess
 import sys
@@ -28,7 +27,7 @@ RECORDING_S = 20  # the first mesh and the warm-up of measure_live, and BAG_S, a
 
 
 def measured(scene, size, rate_hz, nodelets, bag=None):
-    """A row: what was measured, the metrics of measure_live, or None, and its complaint, or ""."""
+    """A row: the cells of what was measured, the metrics of measure_live, or None, and its complaint, or ""."""
     width, height = size
     command = [DEVEL / "env.sh", ROOT / "scripts/measure_live", scene, "--json", "--rate", rate_hz]
     if bag:
@@ -41,50 +40,44 @@ def measured(scene, size, rate_hz, nodelets, bag=None):
     complaint = said[-1].removeprefix("measure_live: ").replace(str(ROOT) + "/", "") if said else ""
     if run.returncode and not complaint:
         complaint = f"exit code {run.returncode}"
-    row = {"scene": scene, "size": f"{width}x{height}", "rate_hz": rate_hz, "nodelets": nodelets,
-           "bag": bag is not None, "metrics": json.loads(run.stdout) if run.stdout else None, "complaint": complaint}
-    print(json.dumps({key: row[key] for key in row if key != "metrics"}), file=sys.stderr, flush=True)
-    return row
+    kind = ["doll" if scene.startswith("doll_") else "sponge", "bag" if bag else "camera",
+            "nodelets" if nodelets else "nodes", f"{width}x{height}", rate_hz]
+    print(*kind, complaint, file=sys.stderr, flush=True)
+    return kind, json.loads(run.stdout) if run.stdout else None, complaint
 
 
 def rows_of(scene, size):
-    kinds = list(itertools.product((False, True), RATES_HZ))
-    rows = [measured(scene, size, rate, nodelets) for nodelets, rate in kinds]
+    kinds = [(rate, nodelets) for nodelets in (False, True) for rate in RATES_HZ]
+    rows = [measured(scene, size, *kind) for kind in kinds]
     with recording(OUTPUT / f"latency_{scene}_{size[0]}.bag", scene, "--duration", RECORDING_S, "--rate", RECORDED_HZ,
                    "--width", size[0], "--height", size[1]) as bag:
-        return rows + [measured(scene, size, rate, nodelets, bag) for nodelets, rate in kinds]
+        return rows + [measured(scene, size, *kind, bag) for kind in kinds]
 
 
-def kind(row):
-    return ["doll" if row["scene"].startswith("doll_") else "sponge", "bag" if row["bag"] else "camera",
-            "nodelets" if row["nodelets"] else "nodes", row["size"], row["rate_hz"]]
-
-
-def latency_cells(row):
-    metrics = row["metrics"]
+def latency_cells(metrics, complaint):
     if metrics is None:
         return ["-", "failed", *["-"] * (1 + len(LATENCIES))]
     mesh = metrics["streams"][SURFACE]
-    answered = f"{mesh.get('answered', 0)} of {mesh['due']}" + (", failed" if row["complaint"] else "")
+    answered = f"{mesh.get('answered', 0)} of {mesh['due']}" + (", failed" if complaint else "")
     return [number(metrics["frames"] / metrics["seconds"], 1), answered,
             *[number(get(mesh, f"latency_ms.{name}"), 1) for name in LATENCIES], number(metrics["load"], 1)]
 
 
-def cpu_cells(row):
-    cpu = get(row, "metrics.cpu")
+def cpu_cells(metrics, source):
+    cpu = get(metrics, "cpu")
     if cpu is None:
         return ["-"] * (len(NODES) + 2)
     return [*[number(cpu["nodes_ms"].get(name, 0.0), 1) for name in NODES], number(cpu["graph_ms"], 1),
-            "-" if row["bag"] else number(cpu["camera_ms"], 1)]
+            "-" if source == "bag" else number(cpu["camera_ms"], 1)]
 
 
 def main():
     scenes = chosen(SCENES, sys.argv[1:])
     OUTPUT.mkdir(exist_ok=True)
     rows = [row for scene in scenes for size in SIZES for row in rows_of(scene, size)]
-    tables = {"From image to mesh": [[*kind(row), *latency_cells(row)] for row in rows],
-              "CPU time": [[*kind(row), *cpu_cells(row)] for row in rows],
-              "Failed": [[*kind(row), row["complaint"]] for row in rows if row["complaint"]] or [["none", *5 * "-"]]}
+    tables = {"From image to mesh": [[*kind, *latency_cells(*found)] for kind, *found in rows],
+              "CPU time": [[*kind, *cpu_cells(metrics, kind[1])] for kind, metrics, _ in rows],
+              "Failed": [[*kind, complaint] for kind, _, complaint in rows if complaint] or [["none", *5 * "-"]]}
     publish("latency.md", "latency", tables, f", on {processor()}", scenes == SCENES)
 
 

@@ -16,14 +16,13 @@ STAMP = """simulator:
     - {name: stamp, frame: stamp, shape: box, size_m: [0.044, 0.044, 0.02], rounding_m: 0.002,
        pose: [0, 0, 0.01, 0, 0, 0, 1], friction: 1}
 """
-PARAMETERS = {"press_held": STAMP}
 
 
 def open_loop_run(scene):
     """{("open loop", scene): report}. The tracker is told where the body begins, because both ends are hidden."""
     name = f"{scene}_open_loop"
     parameters = OUTPUT / f"{name}_parameters.yaml"
-    parameters.write_text(PARAMETERS.get(scene, "simulator: {}\n"))
+    parameters.write_text(STAMP if scene == "press_held" else "simulator: {}\n")
     with recorded(name, scene) as bag:
         pose = ", ".join(f"{part:.9f}" for part in bags.start(bag))
         config = changed(ROOT / "config/sponge.yaml", name, r"initial_pose:.*",

@@ -14,8 +14,7 @@ TOY_POSE = "[0.059, -0.038, 0.630, 0.611, -0.488, 0.171, 0.599]"  # rough, from 
 LONG_S = "60"
 LONG = ("still", "bend")
 MOTION, WORLD = ("--camera-motion", "orbit"), ("--output-frame", "world")
-# Faults as arguments of inject: one for every scene with faults, more for one of them.
-HOLES = {DEPTH_HOLES: ["--holes", "0.3"]}
+# More faults of one scene, as arguments of inject.
 MORE_FAULTS = {"bend": {
     "occluder in front of half of the body for 2 s": ["--occluder", "0.15", "--occluder-u", "0.72",
                                                       "--occluder-from", "1.5", "--occluder-for", "2"],
@@ -31,7 +30,6 @@ HIDDEN = ("occlude", "doll_occlude", "touch", "doll_touch", "squeeze", "doll_squ
 # Scenes with known forces. The tracker is told how well the stiffness is known, so that it says them in newtons.
 PRESSED, STIFFNESS_STD_PA = ("stamp", "doll_stamp"), 200
 FARTHER_M = {"far": 0.4, "doll_far": 0.4, "two_bodies": 0.25}  # away from the camera than the rough poses say
-PARAMETERS = {FEW_FEATURES: "feature_tracker: {max_features: 50}\n"}
 
 
 def all_scenes():
@@ -109,14 +107,19 @@ def scene_run(kind, scene, camera=(), replay=()):
         config, allowed = config_of(scene, name)
         reports, unhidden = {}, ()
         if kind == "scene" and scene in HIDDEN:
-            unhidden = ("--unhidden", unhidden_result(scene, config))
+            with recorded(f"{scene}_unhidden", scene, "--no-hands") as alone:
+                unhidden = ("--unhidden", track(f"{scene}_unhidden", alone, config))
             reports[("unhidden", scene)] = evaluate(unhidden[1], "--truth", bag)
         reports[(kind, scene)] = measure(name, bag, config, "--truth", bag, *unhidden,
                                          more=(*tool_of(scene), *allowed, *replay))
         if kind == "scene" and scene in WRONG_MATCH_SEEDS:
             reports.update(fault_runs(scene, bag, config))
         if kind == "scene" and scene in NOISE_FREE:
-            reports.update(model_runs(scene, bag, config))
+            fine = fine_sponge(scene)
+            reports[("fine", scene)] = measure(f"{scene}_fine", bag, fine, "--truth", bag)
+            # Both volumes, simulated from the exact visible vertices.
+            reports[("exact", scene)] = simulate(f"{scene}_exact", bag, config)
+            reports[("fine exact", scene)] = simulate(f"{scene}_fine_exact", bag, fine)
     return reports
 
 
@@ -142,15 +145,8 @@ def cluttered_run(scene):
                 ("uncluttered", scene): evaluate(result, "--truth", bag)}
 
 
-def model_runs(scene, bag, config):
-    """The same scene with a finer volume, and both volumes simulated from the exact visible vertices."""
-    fine = fine_sponge(scene)
-    return {("fine", scene): measure(f"{scene}_fine", bag, fine, "--truth", bag),
-            ("exact", scene): simulate(f"{scene}_exact", bag, config),
-            ("fine exact", scene): simulate(f"{scene}_fine_exact", bag, fine)}
-
-
 def fine_sponge(scene):
+    """The object with a finer volume."""
     folder = OUTPUT / f"{scene}_fine_sponge"
     tool("prepare_model", ROOT / "config/sponge.obj", "--output", folder, "--cage-vertices", FINE_CAGE,
          package="softbody_sim")
@@ -169,32 +165,20 @@ def simulate(name, truth, config):
     return report
 
 
-def unhidden_result(scene, config):
-    """Result for the same motion without the hand."""
-    with recorded(f"{scene}_unhidden", scene, "--no-hands") as bag:
-        return track(f"{scene}_unhidden", bag, config)
-
-
-def faults_of(scene):
-    drawn = {wrong_matches(seed): ["--misplaced", "0.2", "--seed", str(seed)] for seed in WRONG_MATCH_SEEDS[scene]}
-    return {**HOLES, **drawn, **MORE_FAULTS.get(scene, {})}
-
-
 def fault_runs(scene, bag, config):
     """The same recording with faults, and with other parameters; {("fault", (scene, fault)): report}."""
-    reports = {}
-    for number, (fault, arguments) in enumerate(faults_of(scene).items(), 1):
+    drawn = {wrong_matches(seed): ["--misplaced", "0.2", "--seed", str(seed)] for seed in WRONG_MATCH_SEEDS[scene]}
+    faults, reports = {DEPTH_HOLES: ["--holes", "0.3"], **drawn, **MORE_FAULTS.get(scene, {})}, {}
+    for number, (fault, arguments) in enumerate(faults.items(), 1):
         name = f"{scene}_fault_{number}"
         faulty = OUTPUT / f"{name}.bag"
         tool("inject", bag, "--output", faulty, *arguments)
         reports[("fault", (scene, fault))] = measure(name, faulty, config, "--truth", bag, "--recording", faulty)
         faulty.unlink()
-    for number, (change, text) in enumerate(PARAMETERS.items(), 1):
-        name = f"{scene}_parameters_{number}"
-        parameters = OUTPUT / f"{name}.yaml"
-        parameters.write_text(text)
-        reports[("fault", (scene, change))] = measure(name, bag, config, "--truth", bag,
-                                                      more=("--parameters", parameters))
+    parameters = OUTPUT / f"{scene}_parameters_1.yaml"
+    parameters.write_text("feature_tracker: {max_features: 50}\n")
+    reports[("fault", (scene, FEW_FEATURES))] = measure(parameters.stem, bag, config, "--truth", bag,
+                                                        more=("--parameters", parameters))
     return reports
 
 

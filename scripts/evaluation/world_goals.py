@@ -1,5 +1,5 @@
 """The goals of scenes like the real world: hands, distance, speed, low light, bodies of one colour, wrong objects."""
-from evaluation.figures import (ALL, HIDDEN, OWN_COLOUR, P95, PLAIN, PLAIN_MOTIONS, STARTS, TEXTURES, VISIBLE, WRONG_MM,
+from evaluation.figures import (ALL, HIDDEN, NOISE_FREE, OWN_COLOUR, P95, PLAIN, STARTS, TEXTURES, VISIBLE, WRONG_MM,
                                 false_tracking, frames_of, get, mean_within, of_kind, percents, time_until_normal,
                                 value_of, visible_while_tracking, worst, worst_of, wrong_after_start)
 
@@ -27,10 +27,10 @@ def checked(reports):
 def plain_goals(reports):
     still = frames_of(reports.get(("plain", "still")))
     return [
-        (f"one colour: mean error of visible vertices, worst of {', '.join(PLAIN_MOTIONS)}", "<= 1.0 mm",
-         worst_of(reports, "plain", PLAIN_MOTIONS, VISIBLE)),
+        (f"one colour: mean error of visible vertices, worst of {', '.join(NOISE_FREE)}", "<= 1.0 mm",
+         worst_of(reports, "plain", NOISE_FREE, VISIBLE)),
         ("one colour: mean error of hidden vertices, worst of the same", "<= 2.5 mm",
-         worst_of(reports, "plain", PLAIN_MOTIONS, HIDDEN)),
+         worst_of(reports, "plain", NOISE_FREE, HIDDEN)),
         ("one colour: still: mean error of all vertices", "<= 0.35 mm", value_of(reports, "plain", "still", ALL)),
         ("one colour: still: mean error of the worst frame", "<= 0.5 mm",
          max((frame.mean for frame in still), default=None)),
@@ -63,10 +63,10 @@ def texture_goals(reports):
     return [
         ("soft toy, one colour: mean error of visible vertices, worst of push, pull, twist", "<= 1.0 mm",
          worst_of(reports, "plain", ("doll_push", "doll_pull", "doll_twist"), VISIBLE)),
-        (f"weak texture: mean error of visible vertices, worst of {', '.join(PLAIN_MOTIONS)}", "<= 1.0 mm",
-         worst_of(reports, "weak", PLAIN_MOTIONS, VISIBLE)),
+        (f"weak texture: mean error of visible vertices, worst of {', '.join(NOISE_FREE)}", "<= 1.0 mm",
+         worst_of(reports, "weak", NOISE_FREE, VISIBLE)),
         ("soft toy, weak texture: the same", "<= 1.0 mm",
-         worst_of(reports, "weak", [f"doll_{name}" for name in PLAIN_MOTIONS], VISIBLE)),
+         worst_of(reports, "weak", [f"doll_{name}" for name in NOISE_FREE], VISIBLE)),
         ("one colour: far: mean error of visible vertices while the body moves", "<= 0.8 mm",
          mean_within(reports.get(("plain", "far")), "visible", *MOVING_S)),
         ("one colour: on a table with a shadow: mean error of visible vertices", "<= 1.0 mm",
