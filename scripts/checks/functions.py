@@ -1,13 +1,13 @@
 #!/usr/bin/python3
 """Checks that functions are short: at most MOST_LINES, from the name to the last line.
 
-Usage: functions.py [ROOT]
 Prints one line per fault; exit code 1 if there is any.
 """
 import ast
-import pathlib
 import re
 import sys
+
+from files import ROOT, is_python
 
 MOST_LINES = 40
 NOT_CODE = re.compile(r'//[^\n]*|/\*.*?\*/|R"(\w*)\(.*?\)\1"|"(?:\\.|[^"\\\n])*"|(?<!\w)\'(?:\\.|[^\'\\\n])+\'|^[ \t]*#(?:\\\n|[^\n])*',
@@ -55,33 +55,23 @@ def python_functions(text):
             yield node.name, node.lineno, node.end_lineno
 
 
-def sources(root):
-    for folder in ("src", "scripts"):
-        for path in sorted((root / folder).rglob("*")):
-            if path.suffix in (".h", ".cpp"):
-                yield path, cpp_functions
-            elif path.suffix == ".py" or (path.suffix == "" and path.is_file() and path.read_bytes()[:80].split(b"\n")[0].endswith(
-                    (b"/python3", b" python3"))):
-                yield path, python_functions
+def sources():
+    for path in sorted([*(ROOT / "src").rglob("*"), *(ROOT / "scripts").rglob("*")]):
+        if path.suffix in (".h", ".cpp"):
+            yield path, cpp_functions
+        elif is_python(path):
+            yield path, python_functions
 
 
-def length_faults(root):
+def length_faults():
     found = 0
-    for path, functions in sources(root):
+    for path, functions in sources():
         for name, first, last in functions(path.read_text()):
             found += functions is cpp_functions
             if last - first + 1 > MOST_LINES:
-                yield f"{path.relative_to(root)}:{first}: {last - first + 1} lines, more than {MOST_LINES}: {name[:60]}"
+                yield f"{path.relative_to(ROOT)}:{first}: {last - first + 1} lines, more than {MOST_LINES}: {name[:60]}"
     if not found:
-        yield f"{root}/src: no C++ function found"
+        yield f"{ROOT}/src: no C++ function found"
 
 
-def main():
-    root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).parents[2]).resolve()
-    faults = [*length_faults(root)]
-    print("\n".join(faults))
-    return 1 if faults else 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())
+sys.exit("\n".join(length_faults()) or 0)

@@ -1,16 +1,16 @@
 #!/usr/bin/python3
 """Checks that every error and warning of the C++ and Python sources says what, where and what to do.
 
-Usage: messages.py [ROOT]
 Prints one line per fault and the number of messages; exit code 1 if there is any. A message names a thing: it has a
 value, a name or a noun. It has a verb: what holds, or what to do. What a node logs also says what is allowed, what to
 do, or what the node does now. Shorter texts than three words are parts of other messages. Each row of "Other messages"
 in docs/troubleshooting.md quotes one of them.
 """
 import ast
-import pathlib
 import re
 import sys
+
+from files import ROOT, is_python
 
 VARIES = "..."
 # What leads to a message: an exception, a log, a helper that throws or warns, a reason in a status or an answer.
@@ -90,15 +90,15 @@ def faults_of(text, is_log):
         yield "does not say what is allowed, what to do, or what the node does now"
 
 
-def messages(root):
+def messages():
     """(file, line, text, whether a node logs it)."""
-    for path in sorted(path for folder in ("src", "scripts") for path in (root / folder).rglob("*") if path.is_file()):
+    for path in sorted([*(ROOT / "src").rglob("*"), *(ROOT / "scripts").rglob("*")]):
         if {"test", "bench", "examples"} & set(path.parts):
             continue
         if path.suffix in (".cpp", ".h"):
             source = path.read_text(encoding="utf-8")
             yield from ((path, source.count("\n", 0, at) + 1, *rest) for at, *rest in cpp_messages(source))
-        elif path.suffix == ".py" or (not path.suffix and b"python3" in path.read_bytes().split(b"\n")[0]):
+        elif is_python(path):
             yield from ((path, *message) for message in python_messages(path.read_text(encoding="utf-8")))
 
 
@@ -111,15 +111,12 @@ def stale_rows(page, texts):
 
 
 def main():
-    root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).parents[2]).resolve()
-    found = [message for message in messages(root) if len(re.findall(r"[A-Za-z_]{2,}", message[2])) > 2]
-    faults = [f"{path.relative_to(root)}:{line}: {fault}: {' '.join(text.split())}"
+    found = [message for message in messages() if len(re.findall(r"[A-Za-z_]{2,}", message[2])) > 2]
+    faults = [f"{path.relative_to(ROOT)}:{line}: {fault}: {' '.join(text.split())}"
               for path, line, text, is_log in found for fault in faults_of(text, is_log)]
-    page = (root / "docs/troubleshooting.md").read_text(encoding="utf-8")
-    faults += stale_rows(page, [text for _, _, text, _ in found])
+    faults += stale_rows((ROOT / "docs/troubleshooting.md").read_text(encoding="utf-8"), [text for _, _, text, _ in found])
     print("\n".join([*faults, f"{len(found)} messages"]))
     return 1 if faults or not found else 0
 
 
-if __name__ == "__main__":
-    sys.exit(main())
+sys.exit(main())

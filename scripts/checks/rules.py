@@ -2,15 +2,16 @@
 """Checks that docs/pipeline/rules.md lists every chosen constant of the tracker's core, and nothing else, and that each
 has a comment that says why it has this value: on its lines or above.
 
-Usage: rules.py [ROOT]
 Prints one line per fault; exit code 1 if there is any. A constant is chosen if its value has a number and does not follow
 from another constant. Tools and printed markers are not part of the page.
 """
-import pathlib
 import re
 import sys
 
-CORE, PUBLIC = "src/softbody_tracking/src/core", "src/softbody_tracking/include"
+from files import ROOT
+
+CORE, PUBLIC = ROOT / "src/softbody_tracking/src/core", ROOT / "src/softbody_tracking/include"
+PAGE = ROOT / "docs/pipeline/rules.md"
 NOT_ON_PAGE = {"tool", "blade", "marker_board"}
 DECLARATION = re.compile(r"\bconstexpr\s+[\w:<>, ]*?\b(k[A-Z]\w*[^;]*);", re.DOTALL)
 NAME = re.compile(r"\s*(k[A-Z]\w*)\s*(?:\[[^\]]*\])?(.*)", re.DOTALL)
@@ -45,15 +46,9 @@ def declarations(folder):
                 yield path.relative_to(folder), text, declaration, names
 
 
-def chosen(root):
-    """{(file below core, name)}."""
-    return {(str(file), name) for file, _, _, names in declarations(root / CORE) for name in names
-            if file.parts[0] not in NOT_ON_PAGE}
-
-
-def without_reason(root):
+def without_reason():
     for folder in (CORE, PUBLIC):
-        for file, text, declaration, names in declarations(root / folder):
+        for file, text, declaration, names in declarations(folder):
             begin, end = text.rindex("\n", 0, declaration.start()), text.index("\n", declaration.end())
             above = text[:begin].rsplit("\n", 1)[-1].strip()
             if "//" not in text[begin:end] and not above.startswith("//"):
@@ -61,16 +56,12 @@ def without_reason(root):
 
 
 def main():
-    root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else ".")
-    page = root / "docs/pipeline/rules.md"
-    listed = {(file, name) for file, names in ROW.findall(page.read_text()) for name in re.findall(r"k\w+", names)}
-    present = chosen(root)
-    faults = [f"{file}: {name} is missing in {page}" for file, name in sorted(present - listed)]
-    faults += [f"{page}: {file} has no chosen constant {name}" for file, name in sorted(listed - present)]
-    faults += without_reason(root)
-    print("\n".join(faults), end="\n" if faults else "")
-    return 1 if faults or not present else 0
+    listed = {(file, name) for file, names in ROW.findall(PAGE.read_text()) for name in re.findall(r"k\w+", names)}
+    present = {(str(file), name) for file, _, _, names in declarations(CORE) for name in names
+               if file.parts[0] not in NOT_ON_PAGE}
+    sys.exit("\n".join([*(f"{file}: {name} is missing in {PAGE}" for file, name in sorted(present - listed)),
+                        *(f"{PAGE}: {file} has no chosen constant {name}" for file, name in sorted(listed - present)),
+                        *without_reason()]) or int(not present))
 
 
-if __name__ == "__main__":
-    sys.exit(main())
+main()

@@ -1,11 +1,10 @@
 #!/usr/bin/python3
 """Checks the walls between ROS and the cores, between packages and between rooms.
 
-Usage: walls.py [ROOT [LIBRARIES]]
-ROOT is the project, LIBRARIES the folder with its built libraries (ROOT/catkin_ws/devel/lib); without that folder the
-libraries are not checked. Prints one line per fault; exit code 1 if there is any.
+Libraries are checked once they are built. Prints one line per fault; exit code 1 if there is any.
 A room is a folder of src/core with the public headers of the folder of the same name below include/PACKAGE.
 """
+import functools
 import graphlib
 import pathlib
 import re
@@ -13,6 +12,9 @@ import subprocess
 import sys
 import xml.etree.ElementTree as ElementTree
 
+from files import ROOT
+
+LIBRARIES = ROOT / "catkin_ws/devel/lib"
 # A package uses only packages to its left.
 PACKAGES = ["softbody_msgs", "softbody_common", "softbody_python", "softbody_rviz_plugins", "softbody_tracking", "softbody_sim",
             "softbody_recordings", "softbody_virtual_camera", "softbody_scanning", "softbody_evaluation",
@@ -30,9 +32,9 @@ NOT_SOURCES = {".git", "catkin_ws", "__pycache__", "bench", "demo_output", "eval
 class Source:
     """A C++ file: its package, its place in the package, and what it includes."""
 
-    def __init__(self, root, path):
-        self.name = str(path.relative_to(root))
-        self.package, *parts = path.relative_to(root / "src").parts
+    def __init__(self, path):
+        self.name = str(path.relative_to(ROOT))
+        self.package, *parts = path.relative_to(ROOT / "src").parts
         self.place = pathlib.PurePosixPath(*parts)
         self.path = path
         self.includes = [(quote, pathlib.PurePosixPath(target))
@@ -59,20 +61,22 @@ class Source:
         return None
 
 
-def cpp_sources(root):
+def cpp_sources():
     """All but the programs of a package of its own (CATKIN_IGNORE)."""
-    paths = sorted(path for path in (root / "src").rglob("*")
+    paths = sorted(path for path in (ROOT / "src").rglob("*")
                    if path.suffix in CPP and not (path.parent / "CATKIN_IGNORE").exists())
-    return [Source(root, path) for path in paths]
+    return [Source(path) for path in paths]
 
 
-def is_ros(target, cache={}):
+@functools.cache
+def is_ros(target):
     """Whether a header belongs to a ROS package: Debian installs a package.xml for each."""
     package = target.parts[0]
-    if package not in cache:
-        cache[package] = package in ("ros", "rosbag", "softbody_msgs") or (
-            not package.startswith("softbody_") and pathlib.Path("/usr/share", package, "package.xml").exists())
-    return cache[package] or (package.startswith("softbody_") and target.parts[1:2] == ("ros",))
+    if package in ("ros", "rosbag", "softbody_msgs"):
+        return True
+    if package.startswith("softbody_"):
+        return target.parts[1:2] == ("ros",)
+    return pathlib.Path("/usr/share", package, "package.xml").exists()
 
 
 def ros_faults(sources):
@@ -84,22 +88,22 @@ def ros_faults(sources):
                 yield f"{source.name}: includes ROS ({target}); only ros/ and nodes/ may"
 
 
-def package_faults(root, sources):
+def package_faults(sources):
     for source in sources:
         for _, target in source.includes:
             other = target.parts[0]
             if other in PACKAGES and PACKAGES.index(other) > PACKAGES.index(source.package):
                 yield f"{source.name}: includes {target} of a package above its own"
     for package in PACKAGES:
-        manifest = ElementTree.parse(root / "src" / package / "package.xml").getroot()
+        manifest = ElementTree.parse(ROOT / "src" / package / "package.xml").getroot()
         for other in {element.text for element in manifest if element.tag.endswith("depend")}:
             if other in PACKAGES[PACKAGES.index(package):]:
                 yield f"src/{package}/package.xml: depends on {other}, which is not below it"
 
 
-def include_style_faults(root, sources):
+def include_style_faults(sources):
     for source in sources:
-        package = root / "src" / source.package
+        package = ROOT / "src" / source.package
         # A header of the same package has one spelling; bench/ and test/ add their own folders.
         folders = [package / "src/core", package / "src", package / "test", package]
         for quote, target in source.includes:
@@ -107,7 +111,7 @@ def include_style_faults(root, sources):
             own = first.startswith("softbody_") and first != "softbody_msgs"
             if own and quote == "<":
                 yield f'{source.name}: <{target}> should be "{target}"'
-            if own and not (root / "src" / first / "include" / target).exists():
+            if own and not (ROOT / "src" / first / "include" / target).exists():
                 yield f"{source.name}: there is no public header {target}"
             if quote == '"' and not own and not any((folder / target).exists() for folder in folders):
                 yield f"{source.name}: {target} is not room/file.h from src/core, src or test"
@@ -124,7 +128,7 @@ def header_faults(sources):
             yield f"{source.name}: has no header of its own ({header.name} beside it or in {public})"
 
 
-def room_graphs(root, sources):
+def room_graphs(sources):
     """{package: {room: {room it includes: a file that does}}} of the cores."""
     graphs = {}
     for source in sources:
@@ -134,15 +138,15 @@ def room_graphs(root, sources):
         for quote, target in source.includes:
             if target.parts[0] == source.package:
                 target = target.relative_to(source.package)
-            elif quote == "<" or not (root / "src" / source.package / "src/core" / target).exists():
+            elif quote == "<" or not (ROOT / "src" / source.package / "src/core" / target).exists():
                 continue
             if str(target.parent) != source.room:
                 graph.setdefault(str(target.parent), source.name)
     return graphs
 
 
-def room_faults(root, sources):
-    for package, graph in room_graphs(root, sources).items():
+def room_faults(sources):
+    for package, graph in room_graphs(sources).items():
         try:
             graphlib.TopologicalSorter(graph).prepare()
         except graphlib.CycleError as error:
@@ -157,32 +161,32 @@ def is_text_source(path):
     return path.suffix == "" and path.is_file() and path.read_bytes()[:2] == b"#!"
 
 
-def size_faults(root):
-    folders = [root]
+def size_faults():
+    folders = [ROOT]
     while folders:
         folder = folders.pop()
         entries = sorted(path for path in folder.iterdir() if not path.is_symlink())
-        folders += [path for path in entries if path.is_dir() and (folder != root or path.name not in NOT_SOURCES)
+        folders += [path for path in entries if path.is_dir() and (folder != ROOT or path.name not in NOT_SOURCES)
                     and path.name != "__pycache__"]
         files = [path for path in entries if path.is_file()]
         if len(files) > MOST_FILES:
-            yield f"{folder.relative_to(root)}: {len(files)} files, more than {MOST_FILES}"
+            yield f"{folder.relative_to(ROOT)}: {len(files)} files, more than {MOST_FILES}"
         for path in filter(is_text_source, files):
             lines = len(path.read_text().splitlines())
             if lines > MOST_LINES:
-                yield f"{path.relative_to(root)}: {lines} lines, more than {MOST_LINES}"
+                yield f"{path.relative_to(ROOT)}: {lines} lines, more than {MOST_LINES}"
 
 
-def core_libraries(root):
-    for path in sorted((root / "src").glob("*/CMakeLists.txt")):
+def core_libraries():
+    for path in sorted((ROOT / "src").glob("*/CMakeLists.txt")):
         yield from re.findall(r"^softbody_core_library\((\w+)", path.read_text(), re.MULTILINE)
 
 
-def library_faults(root, libraries):
-    if not libraries.is_dir():
+def library_faults():
+    if not LIBRARIES.is_dir():
         return
-    for name in core_libraries(root):
-        path = libraries / f"lib{name}.so"
+    for name in core_libraries():
+        path = LIBRARIES / f"lib{name}.so"
         if not path.exists():
             yield f"{path}: not built"
             continue
@@ -192,16 +196,7 @@ def library_faults(root, libraries):
                 yield f"{path.name}: linked to {needed}; a core does without ROS"
 
 
-def main():
-    root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).parents[2]).resolve()
-    libraries = pathlib.Path(sys.argv[2]) if len(sys.argv) > 2 else root / "catkin_ws/devel/lib"
-    sources = cpp_sources(root)
-    faults = [*ros_faults(sources), *package_faults(root, sources), *include_style_faults(root, sources),
-              *header_faults(sources), *room_faults(root, sources), *size_faults(root),
-              *library_faults(root, libraries)]
-    print("\n".join(faults))
-    return 1 if faults or not sources else 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())
+sources = cpp_sources()
+faults = [*ros_faults(sources), *package_faults(sources), *include_style_faults(sources), *header_faults(sources),
+          *room_faults(sources), *size_faults(), *library_faults()]
+sys.exit("\n".join(faults) or int(not sources))
