@@ -36,21 +36,14 @@ class Source:
         self.name = str(path.relative_to(ROOT))
         self.package, *parts = path.relative_to(ROOT / "src").parts
         self.place = pathlib.PurePosixPath(*parts)
-        self.path = path
         self.includes = [(quote, pathlib.PurePosixPath(target))
                          for quote, target in INCLUDE.findall(path.read_text())]
+        self.public = f"include/{self.package}"
+        self.may_use_ros = self.package == "softbody_bringup" or self.is_below(
+            f"{self.public}/ros", "src/ros", "src/nodes", "bench/ros", "test")
 
     def is_below(self, *folders):
         return any(self.place.is_relative_to(folder) for folder in folders)
-
-    @property
-    def public(self):
-        return f"include/{self.package}"
-
-    @property
-    def may_use_ros(self):
-        return self.package == "softbody_bringup" or self.is_below(
-            f"{self.public}/ros", "src/ros", "src/nodes", "bench/ros", "test")
 
     @property
     def room(self):
