@@ -1,7 +1,6 @@
 """A roslaunch with a master of its own, which ends with the program however that ends."""
 import os
 import signal
-import socket
 import subprocess
 import sys
 import time
@@ -9,15 +8,11 @@ import uuid
 
 import rosgraph
 
+from live.screens import free_port
+
 MARK = "MEASURE_LIVE"  # the variable by which the processes of a graph are known: roslaunch copies it to each node
 POLL_S = 0.1
 PATIENCE_S = 90.0  # roslaunch itself kills a node that does not end within 20 s
-
-
-def free_port():
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return probe.getsockname()[1]
 
 
 class Graph:
