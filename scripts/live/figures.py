@@ -7,21 +7,10 @@ from live.streams import AROUND_S, CAMERA, CUTS, STREAMS, TOOL, gaps
 QUANTILES = {"median": 0.5, "p95": 0.95, "p99": 0.99, "worst": 1.0}
 
 
-def streams_of(options):
-    """The measured topics; the tool's only if the scene has a tool."""
-    return [CAMERA] + [topic for topic in STREAMS if options.cuts or topic != TOOL]
-
-
 def quantiles(values):
     """Nothing of no values."""
     values = sorted(values)
     return {name: values[min(len(values) - 1, int(share * len(values)))] for name, share in QUANTILES.items()} if values else None
-
-
-def published(measurement):
-    """When each image was published, by its stamp. The stamps of a bag are old: there the arrival of the CameraInfo counts."""
-    camera = measurement.streams[CAMERA]
-    return dict(zip(camera.stamps, camera.clock if measurement.options.bag else camera.stamps))
 
 
 def stream_figures(measurement, topic):
@@ -37,7 +26,10 @@ def stream_figures(measurement, topic):
     result["answered"] = len(due.intersection(stamp for stamp, _ in answers))
     result["gaps"] = [gaps(answers, frames, due, near, begin, end, rate) for near in ([[], cuts] if cuts else [[]])]
     if topic != CAMERA:
-        result["latency_ms"] = quantiles(1e3 * latency for latency in stream.latencies(begin, end, published(measurement)))
+        # When each image was published. The stamps of a bag are old: there the arrival of the CameraInfo counts.
+        camera = measurement.streams[CAMERA]
+        published = dict(zip(camera.stamps, camera.clock if measurement.options.bag else camera.stamps))
+        result["latency_ms"] = quantiles(1e3 * latency for latency in stream.latencies(begin, end, published))
     return result
 
 
@@ -69,7 +61,7 @@ def complaint(measurement, streams):
 
 def figures_of(measurement):
     options, seconds = measurement.options, measurement.end - measurement.begin
-    streams = {topic: stream_figures(measurement, topic) for topic in streams_of(options)}
+    streams = {topic: stream_figures(measurement, topic) for topic in [CAMERA, *STREAMS] if options.cuts or topic != TOOL}
     frames = streams[CAMERA]["messages"]
     return {"source": options.bag or "scene " + options.scene, "is_bag": bool(options.bag), "cores": os.cpu_count(), "load": measurement.load,
             "seconds": seconds, "frames": frames, "cuts": len(measurement.streams[CUTS].between(measurement.begin, measurement.end)),
@@ -94,14 +86,10 @@ def print_figures(figures):
     for topic, stream in streams.items():
         if stream.get("latency_ms"):
             print(f"  {topic:32}" + " ".join(f"{value:7.1f}" for value in stream["latency_ms"].values()))
-    print_cpu(cpu, figures["is_bag"])
-
-
-def print_cpu(cpu, is_bag):
     print(f"  {'CPU time per frame [ms]':32}")
     for row, milliseconds in sorted(cpu["nodes_ms"].items(), key=lambda item: -item[1]):
         if milliseconds >= 0.05:
             print(f"  {row:32}{milliseconds:7.1f}")
     print(f"  {'graph without the camera':32}{cpu['graph_ms']:7.1f}   ({cpu['graph_cores']:.2f} cores)")
-    if not is_bag:
+    if not figures["is_bag"]:
         print(f"  {'camera':32}{cpu['camera_ms']:7.1f}   ({cpu['camera_cores']:.2f} cores)")

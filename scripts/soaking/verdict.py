@@ -26,11 +26,6 @@ def memory_growth(editors):
     return max(growths, default=(None, "no process lived long enough"))
 
 
-def latency_ratio(side, begin, end, window):
-    first, last = side.latency(begin, begin + window), side.latency(end - window, end)
-    return last / first if first and last else None
-
-
 def rows(options, graph, sides, begin, end, calm, editors, killer):
     growth, node = memory_growth(editors)
     judged = not options.crashes_only
@@ -41,13 +36,14 @@ def rows(options, graph, sides, begin, end, calm, editors, killer):
     for side, editor in zip(sides, editors):
         name = side.namespace
         missing, due = side.unanswered(begin, end - 2.0)
+        first, last = side.latency(begin, begin + calm), side.latency(end - calm, end)
         table += [row(f"{name}: frames away from kills", due, None),
                   row(f"{name}: of these without a state", len(missing), 0 if judged else None)]
         for limit, (slowest, victim) in side.slowest_recoveries(end - 5.0):
             table.append(row(f"{name}: longest time from a kill to a new state ({victim})", slowest, limit if judged else 60.0, "s"))
         table += [
             row(f"{name}: longest time with different revisions of volume and surface", side.longest_apart, APART_S, "s"),
-            row(f"{name}: latency in the calm at the end / at the beginning", latency_ratio(side, begin, end, calm),
+            row(f"{name}: latency in the calm at the end / at the beginning", last / first if first and last else None,
                 1.2 if judged else None)]
         table += [row(f"{name}: {what}", count, None) for what, count in sorted(editor.counts.items())]
     return table
