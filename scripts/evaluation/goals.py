@@ -156,7 +156,6 @@ def summary_rows(reports):
         return largest, next((name for name, value in found.items() if value == largest), "")
 
     paper, scenes = f"<= {PAPER_MEAN_ERROR_MM} mm", ", ".join(NOISE_FREE)
-    rows = []
     for metric, goal, value, name in (
             (f"sponge: mean error of all vertices, worst of {scenes}", paper, *worst_scene("", ALL)),
             ("soft toy: the same", paper, *worst_scene("doll_", ALL)),
@@ -171,5 +170,4 @@ def summary_rows(reports):
             ("toy recorded by [Petit et al. 2015](docs/evaluation.md#recorded-plush-toy) with a real camera: median "
              "distance from the measured depth", "<= 1.2 mm", toy_median(reports), "")):
         limit, measured, reached = verdict(goal, value)
-        rows.append([metric, limit, f"{measured} ({name})" if name else measured, reached])
-    return rows
+        yield [metric, limit, f"{measured} ({name})" if name else measured, reached]

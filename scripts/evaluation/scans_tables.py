@@ -75,16 +75,15 @@ def visible(report, metric):
 
 def tracking_rows(scene, result):
     """A row for each scanned model."""
-    rows, true = [], result["true"]
+    true = result["true"]
     for model, report in result["scanned"].items():
         pairs = [(visible(true, metric), visible(report, metric)) for metric in ("surface_distance", "vertex_error")]
         cells = [number(value) for one, other in pairs for value in (one, other, other / one)]
         bounds = [percent(get(one, "calibration.within_90_visible"), 0) for one in (true, report)]
         share = tracking_share(report)
         goals = {"error": pairs[0][1] <= LARGER_ERROR * pairs[0][0], "tracked": share >= tracking_share(true)}
-        rows.append([f"`{scene.name}`", scene.words, f"`{model}`", percent(share, 0), *cells, *bounds, verdict(goals),
-                     result["commit"]])
-    return rows
+        yield [f"`{scene.name}`", scene.words, f"`{model}`", percent(share, 0), *cells, *bounds, verdict(goals),
+               result["commit"]]
 
 
 def rows_of(row, result):

@@ -47,12 +47,10 @@ def cluttered(reports):
 
 
 def moving_camera(reports):
-    rows = []
     for name, moving in of_kind(reports, "moving camera").items():
         cells = beside(reports, ("scene", "moving camera"), name, MEANS[0], P95, MEANS[1], "jitter.per_vertex.rms_mm")
         times = ratio(reports, ("moving camera", name), ("scene", name))
-        rows.append([name, answered(moving), *cells[:2], number(times), *cells[2:]])
-    return rows
+        yield [name, answered(moving), *cells[:2], number(times), *cells[2:]]
 
 
 def long_runs(reports):
@@ -77,20 +75,18 @@ def absences(reports):
 
 
 def cuts(reports):
-    rows = []
     for name, report in of_kind(reports, "scene").items():
         if "cut_surface" not in report:
             continue
         pieces, tool = report["pieces"], report.get("tool")
-        rows.append([name, f"{pieces['result_pieces']} of {pieces['true_pieces']}", percent(pieces["frames_right"]),
-                     percent(pieces["vertices_right"]), number(pieces["delay_s"]),
-                     ", ".join(number(piece["mean_mm"]) for piece in report["vertex_error"]["pieces"]) or "-",
-                     *numbers(report, "vertex_error.near_cut.mean_mm", "cut_surface.distance.mean_mm"),
-                     number(worst(get(report, f"cut_surface.{way}.max_mm") for way in ("distance", "missed"))),
-                     *numbers(report, "cut_surface.tilt_deg"), percent(get(report, "volume.cut_change"), 3),
-                     f"{tool['answered']} of {tool['expected']}" if tool else "-",
-                     *numbers(tool, "position.mean_mm", "rotation_deg.mean")])
-    return rows
+        yield [name, f"{pieces['result_pieces']} of {pieces['true_pieces']}", percent(pieces["frames_right"]),
+               percent(pieces["vertices_right"]), number(pieces["delay_s"]),
+               ", ".join(number(piece["mean_mm"]) for piece in report["vertex_error"]["pieces"]) or "-",
+               *numbers(report, "vertex_error.near_cut.mean_mm", "cut_surface.distance.mean_mm"),
+               number(worst(get(report, f"cut_surface.{way}.max_mm") for way in ("distance", "missed"))),
+               *numbers(report, "cut_surface.tilt_deg"), percent(get(report, "volume.cut_change"), 3),
+               f"{tool['answered']} of {tool['expected']}" if tool else "-",
+               *numbers(tool, "position.mean_mm", "rotation_deg.mean")]
 
 
 def open_loop(reports):
@@ -101,15 +97,13 @@ def open_loop(reports):
 
 
 def faults(reports):
-    rows = []
     for scene in (name for name in WRONG_MATCH_SEEDS if ("scene", name) in reports):
         faulty = {key[1][1]: key for key in reports if key[0] == "fault" and key[1][0] == scene}
         for fault, key in {"none": ("scene", scene), **faulty}.items():
             report = reports[key]
-            rows.append([scene, fault, f"{report['frames']['answered']} of {report['frames'].get('recorded', '-')}",
-                         percent(tracking_share(report), 0), *numbers(report, MEANS[0]),
-                         number(ratio(reports, key, ("scene", scene))), *numbers(report, P95)])
-    return rows
+            yield [scene, fault, f"{report['frames']['answered']} of {report['frames'].get('recorded', '-')}",
+                   percent(tracking_share(report), 0), *numbers(report, MEANS[0]),
+                   number(ratio(reports, key, ("scene", scene))), *numbers(report, P95)]
 
 
 def stage_times(reports):

@@ -27,15 +27,13 @@ def predicted_errors(reports):
 
 
 def wrong_objects(reports):
-    rows = []
     for what, report in of_kind(reports, "wrong").items():
         late = [state for time, state in report["states_by_time"] if time >= FALSE_AFTER_S]
-        rows.append([what, late[0], f"{false_tracking(report)} of {len(late)}", "-"])
+        yield [what, late[0], f"{false_tracking(report)} of {len(late)}", "-"]
     for what, report in of_kind(reports, "placed").items():
         late = [frame for frame in frames_of(report) if frame.since >= FALSE_AFTER_S]
-        rows.append([what, late[0].state, f"{sum(frame.state == 'tracking' for frame in late)} of {len(late)}",
-                     number(max(frame.visible_most for frame in late if frame.visible_most is not None))])
-    return rows
+        yield [what, late[0].state, f"{sum(frame.state == 'tracking' for frame in late)} of {len(late)}",
+               number(max(frame.visible_most for frame in late if frame.visible_most is not None))]
 
 
 def plot_calibration(reports):

@@ -58,16 +58,14 @@ def peers(_):
 
 def cutting(reports):
     """One row for each scene."""
-    rows = []
     for scene in CUT_THROUGH:
         report = reports[Run(scene)]
         quality = report["quality"]
         columns = (("triangles", str), ("least_deg", number), ("sharp_share", percent), ("narrow_share", percent))
-        rows.append([scene, *(" / ".join(shown(quality[side][key]) for side in ("before", "after", "faces"))
-                              for key, shown in columns),
-                     number(1e6 * quality["volume_change"]), quality["holes"], quality["cuts"],
-                     f"{number(quality['median_ms'])} / {number(quality['worst_ms'])}", surface_distance(report)])
-    return rows
+        yield [scene, *(" / ".join(shown(quality[side][key]) for side in ("before", "after", "faces"))
+                        for key, shown in columns),
+               number(1e6 * quality["volume_change"]), quality["holes"], quality["cuts"],
+               f"{number(quality['median_ms'])} / {number(quality['worst_ms'])}", surface_distance(report)]
 
 
 def surface_distance(report):
@@ -91,13 +89,11 @@ def coarse_doll(reports):
 
 def readme_rows(reports):
     """The paper's figures beside ours. Errors: one row for each body, of the two scenes that it has."""
-    rows = []
     for words, scenes in zip(WORDS.values(), (SCENES[:2], SCENES[2:])):
         ours = (" / ".join(error(reports[Run(scene, COMPARED[method])]) for scene in scenes)
                 for kind, method in SHOWN.items() if kind != PAPER)
-        rows.append([f"{words}, mean error of scenes {' / '.join(scenes)} [mm]", number(PAPER_MEAN_ERROR_MM), *ours])
+        yield [f"{words}, mean error of scenes {' / '.join(scenes)} [mm]", number(PAPER_MEAN_ERROR_MM), *ours]
     for what, initialization in (("time of a frame", False), ("initialization without registration", True)):
         times = totals(reports, initialization)
-        rows.append([f"{' / '.join(WORDS.values())}, {what} [ms]",
-                     *(" / ".join(number(times[(body, kind)]) for body in WORDS) for kind in SHOWN)])
-    return rows
+        yield [f"{' / '.join(WORDS.values())}, {what} [ms]",
+               *(" / ".join(number(times[(body, kind)]) for body in WORDS) for kind in SHOWN)]

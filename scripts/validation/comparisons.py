@@ -39,7 +39,6 @@ def agreement_rows():
 
 def prism_rows():
     """Published beam meshes, clamped at one end, under a small gravity, against bending and shear."""
-    rows = []
     for name, along, down in (("vega/beam3_tet.veg", 1, 0), ("sofa/truthcylinder1.msh", 1, 0), ("sofa/cylinder.msh", 2, 0)):
         path = MESHES / name
         if not path.exists():
@@ -58,45 +57,38 @@ def prism_rows():
         row = static(path, "--young", young, "--poisson", 0, "--density", density, "--gravity",
                      *(-gravity * np.eye(3)[down]), "--pin", f"{axis}<{float(low[along] + 1e-6 * length)!r}", "--probe",
                      f"{axis}>{float(end)!r}", "--tolerance", 1e-6, *SOLVERS["FEM corotated"])
-        rows.append((name, len(tets), f"{length * math.sqrt(area / inertia):.1f}",
-                     f"{-row['probe_' + 'xyz'[down] + '_m'] / (1e-3 * length):.4f}"))
-    return rows
+        yield (name, len(tets), f"{length * math.sqrt(area / inertia):.1f}",
+               f"{-row['probe_' + 'xyz'[down] + '_m'] / (1e-3 * length):.4f}")
 
 
 def formulation_rows():
     mesh, rest = box("beam", (12, 2, 2), lambda x, y, z: (0.16 * x, 0.03 * y, 0.03 * z))
     tets = np.loadtxt(mesh.with_suffix(".ele"), skiprows=1, dtype=int)[:, 1:]
-    rows = []
     for young, poisson, density in ((1e6, 0.3, 1000.0), (2e4, 0.3, 200.0), (3e3, 0.45, 200.0)):
         other = beam_tip(rest, tets, young, poisson, density, 9.81)
         for solver in ("PD", "FEM corotated"):
             row = static(mesh, "--young", young, "--poisson", poisson, "--density", density, "--gravity", 0, 0, -9.81,
                          "--pin", "x<1e-9", "--probe", "x>0.159999", "--tolerance", 1e-6, *SOLVERS[solver])
             tip = np.array([row[f"probe_{axis}_m"] for axis in "xyz"])
-            rows.append((f"{young:g}", poisson, solver, f"{1e3 * tip[0]:.4f}, {1e3 * tip[2]:.4f}",
-                         f"{np.linalg.norm(tip - other) / np.linalg.norm(other):.0e}"))
-    return rows
+            yield (f"{young:g}", poisson, solver, f"{1e3 * tip[0]:.4f}, {1e3 * tip[2]:.4f}",
+                   f"{np.linalg.norm(tip - other) / np.linalg.norm(other):.0e}")
 
 
 def bending_rows():
     mesh, _ = box("bar", (20, 10, 3), lambda x, y, z: (0.2 * x, 0.1 * y, 0.03 * z))
-    rows = []
     for name, options in SOLVERS.items():
         row = static(mesh, "--poisson", 0.45, "--pin", "x<1e-9", "--load", "x>0.199999", 0, 0, -0.35, "--probe",
                      "x>0.199999", "--tolerance", 1e-6, *options)
         change = 100.0 * (row["volume_m3"] / (0.2 * 0.1 * 0.03) - 1.0)
-        rows.append((name, f"{-1e3 * row['probe_z_m']:.1f}", f"{change:+.2f}"))
-    return rows
+        yield (name, f"{-1e3 * row['probe_z_m']:.1f}", f"{change:+.2f}")
 
 
 def recovery_rows():
     mesh, rest = box("sponge", (10, 5, 1), lambda x, y, z: (0.2 * x, 0.1 * y, 0.03 * z))
-    rows = []
     for (name, options), start in itertools.product(SOLVERS.items(), ("flat", "inside_out", "random")):
         shape, table = settled(mesh, "--start", start, "--steps", 150, "--damping", 0.3, *options)
         a, b = (places - places.mean(axis=0) for places in (rest, shape))
         rotation, _ = Rotation.align_vectors(b, a)
         distance = np.linalg.norm(b - rotation.apply(a), axis=1).max()
         first, last = (table[k]["elastic_energy_j"] for k in (0, -1))
-        rows.append((name, start, f"{first:.2e}", f"{last:.1e}", f"{1e3 * distance:.1e}"))
-    return rows
+        yield (name, start, f"{first:.2e}", f"{last:.1e}", f"{1e3 * distance:.1e}")

@@ -14,7 +14,6 @@ def friction_rows():
                        "--time-step", 1 / 60, "--probe", "z<1")[-1]
         return row["probe_x_m"]
 
-    rows = []
     for solver in ("pd", "fem"):
         for friction in (0.2, 0.5, 1.0):
             low, high = 0.5 * friction, 1.5 * friction
@@ -22,6 +21,5 @@ def friction_rows():
                 middle = 0.5 * (low + high)
                 low, high = (low, middle) if moved(solver, friction, middle) > 1e-3 else (middle, high)
             angle, reference = math.atan(high), math.atan(friction)
-            rows.append((solver, friction, f"{math.degrees(angle):.2f}", f"{angle / reference:.4f}",
-                         f"{1e3 * moved(solver, friction, 0.98 * friction):.3f}"))
-    return rows
+            yield (solver, friction, f"{math.degrees(angle):.2f}", f"{angle / reference:.4f}",
+                   f"{1e3 * moved(solver, friction, 0.98 * friction):.3f}")

@@ -41,7 +41,6 @@ def membrane_reference(poisson):
 def incompressible_rows():
     exact = {move: [reference(poisson) for poisson in RATIOS]
              for move, reference in ((beam_move, beam_reference), (membrane_move, membrane_reference))}
-    rows = []
     for name, label, n, cells, place, move, more in (
             ("beam", "silicone", 6, (20, 6, 6), beam, beam_move, ("--tolerance", 1e-6)),
             ("Cook's membrane", "thick_cook", 16, (16, 16, 4), membrane, membrane_move, ()),
@@ -50,6 +49,5 @@ def incompressible_rows():
         for solver, (shares, (strain, volume)) in itertools.product(("fem", "pd"), SMOOTHINGS.items()):
             options = ("--static", *more, "--solver", solver, "--strain-smoothing", strain, "--volume-smoothing",
                        volume)
-            rows.append((name, n, solver, shares, *(f"{move(mesh, poisson, options) / reference:.3f}"
-                                                     for poisson, reference in zip(RATIOS, exact[move]))))
-    return rows
+            yield (name, n, solver, shares, *(f"{move(mesh, poisson, options) / reference:.3f}"
+                                               for poisson, reference in zip(RATIOS, exact[move])))

@@ -33,7 +33,7 @@ def slide(mesh, young, density, friction, tilt, steps=SECOND):
 
 def incline_rows():
     """Distance in a second where the block slides, and creep in a second where it sticks."""
-    mesh, rows = block(), []
+    mesh = block()
     for young, density in itertools.product((5e3, 1e5, 5e6), (30, 300, 1000)):
         ratios, creeps = [], []
         for friction, tilt in ((0.0, 0.2), (0.3, 0.6), (1.0, 1.5)):
@@ -43,13 +43,12 @@ def incline_rows():
         for friction in (0.3, 1.0):
             table = slide(mesh, young, density, friction, 0.9 * friction, 2 * SECOND)
             creeps.append(1e3 * (table[-1]["probe_x_m"] - table[SECOND - 1]["probe_x_m"]))
-        rows.append((f"{young:g}", density, *(f"{ratio:.3f}" for ratio in ratios), *(f"{creep:.3f}" for creep in creeps)))
-    return rows
+        yield (f"{young:g}", density, *(f"{ratio:.3f}" for ratio in ratios), *(f"{creep:.3f}" for creep in creeps))
 
 
 def push_rows():
     """Forces of friction, relative to the coefficient of friction."""
-    mesh, rows = block(), []
+    mesh = block()
     ratio = lambda force, weight: force / weight if weight else math.nan
     for young, density, friction in itertools.product((5e3, 1e5, 1e6), (30, 300), (0.3, 0.8)):
         weight = density * SIZE.prod() * GRAVITY
@@ -60,24 +59,22 @@ def push_rows():
         loaded = simulate(mesh, *common, "--load", "all", 1.5 * friction * weight, 0, 0)[SECOND - 1]
         force = sum(-row["pusher_1_x_n"] for row in pushed) / len(pushed) / weight
         drag = sum(ratio(-row["region_1_x_n"], row["ground_z_n"]) for row in dragged) / len(dragged)
-        rows.append((f"{young:g}", density, friction, f"{force / friction:.3f}", f"{drag / friction:.3f}",
-                     f"{loaded['probe_x_m'] / distance(0.5 * friction * GRAVITY):.3f}"))
-    return rows
+        yield (f"{young:g}", density, friction, f"{force / friction:.3f}", f"{drag / friction:.3f}",
+               f"{loaded['probe_x_m'] / distance(0.5 * friction * GRAVITY):.3f}")
 
 
 def drop_rows():
     """A block that falls 100 mm onto a table."""
-    mesh, rows = block(), []
+    mesh = block()
     for young, density in itertools.product((500.0, 5e3, 1e5, 1e6), (30, 300)):
         table = simulate(mesh, *NODE, "--young", young, "--density", density, "--gravity", 0, 0, -GRAVITY, "--ground", -0.1,
                          "--friction", 0.5, "--steps", 3 * SECOND)
         moving = [row["time_s"] for row in table if row["speed_m_s"] > 1e-3]
         rest = f"{moving[-1]:.2f}" if moving[-1] < table[-1]["time_s"] else "never"
         weight = density * SIZE.prod() * GRAVITY
-        rows.append((f"{young:g}", density, rest, *(f"{1e3 * depth:.3f}" for depth in
-                                                     (max(row["depth_m"] for row in table), table[-1]["depth_m"])),
-                     f"{-table[-1]['ground_z_n'] / weight:.3f}"))
-    return rows
+        yield (f"{young:g}", density, rest, *(f"{1e3 * depth:.3f}" for depth in
+                                               (max(row["depth_m"] for row in table), table[-1]["depth_m"])),
+               f"{-table[-1]['ground_z_n'] / weight:.3f}")
 
 
 def ball(x, y, z):
@@ -95,7 +92,6 @@ def cylinder(x, y, z):
 
 def roll_rows():
     """Round bodies on a slope: the moment of inertia takes its part of the acceleration."""
-    rows = []
     for (name, shape, cells, inertia), tilt in itertools.product(
             (("ball", ball, (10, 10, 10), 0.4), ("cylinder", cylinder, (16, 1, 16), 0.5)), (0.1, 0.3)):
         mesh, rest = box(name, cells, shape)
@@ -106,5 +102,4 @@ def roll_rows():
                            rest[:, 2].min(), "--friction", 0.8, "--steps", rate, "--time-step", 1 / rate, "--probe",
                            "all")[-1]["probe_x_m"]
             ratios.append(f"{way / distance(acceleration, rate, 1 / rate):.3f}")
-        rows.append((name, tilt, *ratios))
-    return rows
+        yield (name, tilt, *ratios)

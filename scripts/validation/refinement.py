@@ -61,22 +61,18 @@ SMOOTHED = [("cantilever", 1), ("cantilever", 2), ("cantilever", 4), ("Cook's me
 
 def refinement_rows():
     """(problem, cells across, tets, result / reference, order of convergence of the error between two rows)."""
-    rows = []
     for name, (function, sizes) in STUDIES.items():
         previous = None
         for n in sizes:
             tets, ratio = function(n, *SOLVERS["FEM corotated"])
             error = abs(ratio - 1.0)
             order = math.log(previous[1] / error) / math.log(n / previous[0]) if previous and error > 1e-5 else None
-            rows.append((name, n, tets, f"{ratio:.4f}", "" if order is None else f"{order:.2f}"))
+            yield (name, n, tets, f"{ratio:.4f}", "" if order is None else f"{order:.2f}")
             previous = (n, error)
-    return rows
 
 
 def smoothing_rows():
     """Coarse meshes by shares of smoothed strains."""
-    rows = []
     for share in (0, 0.5, 0.6, 0.7, 0.8, 0.9):
         solver = ("--solver", "pd", "--strain-smoothing", share, "--volume-smoothing", share)
-        rows.append((share, *(f"{STUDIES[name][0](n, *solver)[1]:.3f}" for name, n in SMOOTHED)))
-    return rows
+        yield (share, *(f"{STUDIES[name][0](n, *solver)[1]:.3f}" for name, n in SMOOTHED))
