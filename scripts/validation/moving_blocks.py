@@ -103,3 +103,23 @@ def roll_rows():
                            "all")[-1]["probe_x_m"]
             ratios.append(f"{way / distance(acceleration, rate, 1 / rate):.3f}")
         yield (name, tilt, *ratios)
+
+
+def friction_rows():
+    """The slope at which a block begins to slide."""
+    mesh = block()
+
+    def moved(solver, friction, tilt):
+        return simulate(mesh, "--solver", solver, "--young", 1e6, "--density", 1000, "--damping", 0, *slope(tilt),
+                        "--ground", 0, "--friction", friction, "--steps", 60, "--time-step", 1 / 60, "--probe",
+                        "z<1")[-1]["probe_x_m"]
+
+    for solver in ("pd", "fem"):
+        for friction in (0.2, 0.5, 1.0):
+            low, high = 0.5 * friction, 1.5 * friction
+            while high - low > 1e-3 * friction:
+                middle = 0.5 * (low + high)
+                low, high = (low, middle) if moved(solver, friction, middle) > 1e-3 else (middle, high)
+            angle, reference = math.atan(high), math.atan(friction)
+            yield (solver, friction, f"{math.degrees(angle):.2f}", f"{angle / reference:.4f}",
+                   f"{1e3 * moved(solver, friction, 0.98 * friction):.3f}")
