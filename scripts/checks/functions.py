@@ -15,16 +15,11 @@ NOT_CODE = re.compile(r'//[^\n]*|/\*.*?\*/|R"(\w*)\(.*?\)\1"|"(?:\\.|[^"\\\n])*"
 SCOPE = re.compile(r"\b(?:namespace|extern)\b|^\s*(?:template\s*<.*>\s*)?(?:class|struct|union|enum)\b[^()]*$", re.DOTALL)
 
 
-def blanked(text):
-    """The text with comments, literals and preprocessor lines as blanks; every line stays where it is."""
-    def blanks(match):
-        return re.sub(r"[^\n]", " ", match.group())
-    return re.sub(NOT_CODE, blanks, text)
-
-
 def cpp_functions(text):
     """(head, first line, last line) of each function that is defined outside of another one."""
-    code, scopes, head, parentheses = blanked(text), [], 0, 0
+    # Comments, literals and preprocessor lines become blanks; every line stays where it is.
+    code = NOT_CODE.sub(lambda match: re.sub(r"[^\n]", " ", match[0]), text)
+    scopes, head, parentheses = [], 0, 0
     for at, character in enumerate(code):
         if character in "()":
             parentheses += 1 if character == "(" else -1

@@ -53,9 +53,9 @@ def cpp_text(source, begin):
 
 
 def cpp_messages(source):
-    """(offset, text, whether a node logs it)."""
+    """(line, text, whether a node logs it)."""
     for match in SAYS.finditer(source):
-        yield match.start(), cpp_text(source, match.end()), bool(match["log"])
+        yield source.count("\n", 0, match.start()) + 1, cpp_text(source, match.end()), bool(match["log"])
 
 
 def python_text(node):
@@ -95,11 +95,9 @@ def messages():
     for path in sorted([*(ROOT / "src").rglob("*"), *(ROOT / "scripts").rglob("*")]):
         if {"test", "bench", "examples"} & set(path.parts):
             continue
-        if path.suffix in (".cpp", ".h"):
-            source = path.read_text(encoding="utf-8")
-            yield from ((path, source.count("\n", 0, at) + 1, *rest) for at, *rest in cpp_messages(source))
-        elif is_python(path):
-            yield from ((path, *message) for message in python_messages(path.read_text(encoding="utf-8")))
+        find = cpp_messages if path.suffix in (".cpp", ".h") else python_messages if is_python(path) else None
+        if find:
+            yield from ((path, *message) for message in find(path.read_text(encoding="utf-8")))
 
 
 def stale_rows(page, texts):

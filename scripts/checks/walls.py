@@ -6,6 +6,7 @@ A room is a folder of src/core with the public headers of the folder of the same
 """
 import functools
 import graphlib
+import os
 import pathlib
 import re
 import subprocess
@@ -148,37 +149,26 @@ def room_faults(sources):
             yield f"src/{package}: the rooms include each other: {', '.join(steps)}"
 
 
-def is_text_source(path):
-    if path.suffix in CPP | {".py"}:
-        return True
-    return path.suffix == "" and path.is_file() and path.read_bytes()[:2] == b"#!"
-
-
 def size_faults():
-    folders = [ROOT]
-    while folders:
-        folder = folders.pop()
-        entries = sorted(path for path in folder.iterdir() if not path.is_symlink())
-        folders += [path for path in entries if path.is_dir() and (folder != ROOT or path.name not in NOT_SOURCES)
-                    and path.name != "__pycache__"]
-        files = [path for path in entries if path.is_file()]
+    for place, folders, names in os.walk(ROOT):
+        folder = pathlib.Path(place)
+        left_out = NOT_SOURCES if folder == ROOT else {"__pycache__"}
+        folders[:] = sorted(name for name in folders if name not in left_out)
+        files = [folder / name for name in sorted(names) if not (folder / name).is_symlink()]
         if len(files) > MOST_FILES:
             yield f"{folder.relative_to(ROOT)}: {len(files)} files, more than {MOST_FILES}"
-        for path in filter(is_text_source, files):
-            lines = len(path.read_text().splitlines())
+        for path in files:
+            is_text = path.suffix in CPP | {".py"} or (path.suffix == "" and path.read_bytes()[:2] == b"#!")
+            lines = len(path.read_text().splitlines()) if is_text else 0
             if lines > MOST_LINES:
                 yield f"{path.relative_to(ROOT)}: {lines} lines, more than {MOST_LINES}"
-
-
-def core_libraries():
-    for path in sorted((ROOT / "src").glob("*/CMakeLists.txt")):
-        yield from re.findall(r"^softbody_core_library\((\w+)", path.read_text(), re.MULTILINE)
 
 
 def library_faults():
     if not LIBRARIES.is_dir():
         return
-    for name in core_libraries():
+    lists = "".join(path.read_text() for path in sorted((ROOT / "src").glob("*/CMakeLists.txt")))
+    for name in re.findall(r"^softbody_core_library\((\w+)", lists, re.MULTILINE):
         path = LIBRARIES / f"lib{name}.so"
         if not path.exists():
             yield f"{path}: not built"

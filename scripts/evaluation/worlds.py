@@ -60,18 +60,14 @@ def wrong_object_runs(bag):
     return {("wrong", what): {"states_by_time": bags.states(result)} for what, result in results.items()}
 
 
-def wrong_poses(pose, seed=1):
-    """(words, pose off by 20 mm or 20 degrees in some direction)."""
-    drawn = random.Random(seed)
-    for number in range(1, WRONG_POSES + 1):
-        yield f"20 mm off, direction {number}", moved(pose, direction(drawn), WRONG_M)
-        yield f"20 degrees off, axis {number}", [*pose[:3], *turned_by(pose[3:], direction(drawn), WRONG_RAD)]
-
-
 def wrong_pose_runs(bag):
-    """The right object at a wrong pose; {("placed", what): report}."""
-    sponge, reports = ROOT / "config/sponge.yaml", {}
-    for number, (what, pose) in enumerate(wrong_poses(pose_of(sponge)), 1):
+    """The right object at a pose off by 20 mm or 20 degrees in some direction; {("placed", what): report}."""
+    sponge, drawn, poses, reports = ROOT / "config/sponge.yaml", random.Random(1), {}, {}
+    right = pose_of(sponge)
+    for number in range(1, WRONG_POSES + 1):
+        poses[f"20 mm off, direction {number}"] = moved(right, direction(drawn), WRONG_M)
+        poses[f"20 degrees off, axis {number}"] = [*right[:3], *turned_by(right[3:], direction(drawn), WRONG_RAD)]
+    for number, (what, pose) in enumerate(poses.items(), 1):
         config = with_pose(sponge, f"placed_{number}", pose)
         result = track(f"placed_{number}", bag, config, "--allow-outside", "--placed")
         reports[("placed", what)] = evaluate(result, "--truth", bag)

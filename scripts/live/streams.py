@@ -12,6 +12,12 @@ CUTS = "/softbody/cut"
 AROUND_S = 0.5  # before and after a cut
 
 
+def header(buffer):
+    """The stamp [s] of a message, and where it goes on after its header."""
+    _, secs, nsecs, length = struct.unpack_from("<IIII", buffer)
+    return secs + 1e-9 * nsecs, 16 + length
+
+
 class Stream:
     """Stamps and arrival times of a topic's messages."""
 
@@ -20,8 +26,7 @@ class Stream:
         rospy.Subscriber(topic, rospy.AnyMsg, self.add, queue_size=100, buff_size=1 << 24, tcp_nodelay=True)
 
     def add(self, message):
-        _, secs, nsecs = struct.unpack_from("<III", message._buff)  # every message begins with its header
-        self.stamps.append(secs + 1e-9 * nsecs)
+        self.stamps.append(header(message._buff)[0])
         self.arrivals.append(time.monotonic())
         self.clock.append(time.time())
 

@@ -10,28 +10,20 @@ PAPER = "paper"
 COLUMNS = [(body, whose) for body in TIMED for whose in (PAPER, *TIMED_KINDS)]
 
 
-def stage_time(report, stage, initialization):
-    """Median [ms] of a stage; None if it was not measured."""
-    return next((entry["median_ms"] for entry in report.get("stages", [])
-                 if entry["stage"] == stage and entry["initialization"] == initialization), None)
-
-
 def stage_times(reports, stage, initialization):
-    """Of each column."""
+    """Medians [ms] of each column; None if it was not measured."""
     of_paper = PAPER_TIMES_MS.get(stage + FIRST * initialization, {})
-    return [of_paper.get(body) if whose == PAPER else
-            stage_time(reports[Run(TIMED[body], TIMED_KINDS[whose])], stage, initialization)
-            for body, whose in COLUMNS]
-
-
-def sum_of(values):
-    return None if None in values else sum(values)
+    for body, whose in COLUMNS:
+        stages = [] if whose == PAPER else reports[Run(TIMED[body], TIMED_KINDS[whose])].get("stages", [])
+        found = (entry["median_ms"] for entry in stages
+                 if entry["stage"] == stage and entry["initialization"] == initialization)
+        yield of_paper.get(body) if whose == PAPER else next(found, None)
 
 
 def totals(reports, initialization):
     """Sums [ms] of the paper's three stages, by (body, whose)."""
-    stages = [stage_times(reports, stage, initialization) for stage in STAGES]
-    return dict(zip(COLUMNS, map(sum_of, zip(*stages))))
+    columns = zip(*(stage_times(reports, stage, initialization) for stage in STAGES))
+    return {key: None if None in values else sum(values) for key, values in zip(COLUMNS, columns)}
 
 
 def rows_of(reports, words, initialization, stages=STAGES):

@@ -5,14 +5,10 @@ import time
 
 import rospy
 
+from live.streams import header
+
 BEFORE_S = 0.5  # frames so close before a kill need no answer
 NODE_S = 2.0  # longest time until a killed node works again
-
-
-def _header(buffer):
-    """Stamp [s], and the rest of the message after the header."""
-    _, secs, nsecs, length = struct.unpack_from("<IIII", buffer)
-    return secs + 1e-9 * nsecs, 16 + length
 
 
 class Side:
@@ -30,14 +26,14 @@ class Side:
             rospy.Subscriber(f"{namespace}/{body}/state", rospy.AnyMsg, self._add_state, body, **subscribe)
 
     def _add_frame(self, message):
-        stamp, _ = _header(message._buff)
+        stamp, _ = header(message._buff)
         with self.lock:
             # A late or repeated image is dropped by the graph, as it should be.
             if not self.frames or stamp > self.frames[-1]:
                 self.frames.append(stamp)
 
     def _add_state(self, message, body):
-        stamp, offset = _header(message._buff)
+        stamp, offset = header(message._buff)
         (revision,) = struct.unpack_from("<I", message._buff, offset + 8)  # after the time `observed`
         now = time.time()
         with self.lock:
