@@ -2,11 +2,9 @@
 import dataclasses
 
 import numpy as np
-import rosbag
 import softbody
 
-COLOR, CAMERA = "/camera/color/image_raw", "/camera/color/camera_info"
-FEATURES, BLADE = "/softbody/features", "/softbody/tool/blade"
+from evaluation.bags import messages, places
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -33,28 +31,23 @@ class Moment:
 def read_features(result):
     """{stamp: {id: position}}"""
     found = {}
-    with rosbag.Bag(str(result)) as bag:
-        for _, cloud, _ in bag.read_messages(topics=FEATURES):
-            kind = np.dtype([("place", "<f4", 3), ("id", "<i4"), ("pixel", "<f4", 2), ("confidence", "<f4")])
-            rows = np.frombuffer(cloud.data, kind, cloud.width * cloud.height)
-            found[cloud.header.stamp] = dict(zip(rows["id"].tolist(), rows["place"]))
+    kind = np.dtype([("place", "<f4", 3), ("id", "<i4"), ("pixel", "<f4", 2), ("confidence", "<f4")])
+    for cloud in messages(result, "/softbody/features"):
+        rows = np.frombuffer(cloud.data, kind, cloud.width * cloud.height)
+        found[cloud.header.stamp] = dict(zip(rows["id"].tolist(), rows["place"]))
     return found
 
 
 def read_blades(result):
     """{stamp: corners of the blade}"""
-    with rosbag.Bag(str(result)) as bag:
-        return {message.header.stamp: np.array([[point.x, point.y, point.z] for point in message.polygon.points])
-                for _, message, _ in bag.read_messages(topics=BLADE)}
+    return {message.header.stamp: places(message.polygon.points)
+            for message in messages(result, "/softbody/tool/blade")}
 
 
 def read_images(recording, stamps):
-    """Colour images by stamp, and the intrinsic matrix."""
-    with rosbag.Bag(str(recording)) as bag:
-        camera = np.array(next(bag.read_messages(topics=CAMERA))[1].K).reshape(3, 3)
-        images = {message.header.stamp: np.frombuffer(message.data, np.uint8).reshape(message.height, message.width, 3)
-                  for _, message, _ in bag.read_messages(topics=COLOR) if message.header.stamp in stamps}
-    return images, camera
+    """Colour images by stamp."""
+    return {message.header.stamp: np.frombuffer(message.data, np.uint8).reshape(message.height, message.width, 3)
+            for message in messages(recording, "/camera/color/image_raw") if message.header.stamp in stamps}
 
 
 def most_deformed(states):
@@ -77,7 +70,8 @@ def moments(recording, result, choose=most_deformed):
     """The moments at the states that are chosen from all states with features."""
     features = read_features(result)
     states = choose([state for state in softbody.read(result) if features.get(state.stamp)])
-    images, camera = read_images(recording, {state.stamp for state in states})
+    images = read_images(recording, {state.stamp for state in states})
+    camera = np.array(next(messages(recording, "/camera/color/camera_info")).K).reshape(3, 3)
     return [moment(state, images[state.stamp], camera, features) for state in states]
 
 

@@ -4,7 +4,8 @@
 skin that touch the cut. "Faces" are the triangles of the faces of the cut.
 """
 import numpy as np
-import rosbag
+
+from evaluation.bags import messages
 
 SHARP_DEG = 10.0
 NARROW_DEG = 20.0
@@ -53,10 +54,9 @@ def holes(cut):
 
 def cut_times(result):
     """Times of the frames in which a cut was made [ms]."""
-    with rosbag.Bag(result) as bag:
-        stamps = {message.header.stamp for _, message, _ in bag.read_messages(topics="/softbody/cut")}
-        return [row.milliseconds for _, message, _ in bag.read_messages(topics="/softbody/timing")
-                for row in message.stages if message.header.stamp in stamps and row.stage == "Cutting"]
+    stamps = {message.header.stamp for message in messages(result, "/softbody/cut")}
+    return [row.milliseconds for message in messages(result, "/softbody/timing") for row in message.stages
+            if message.header.stamp in stamps and row.stage == "Cutting"]
 
 
 def of_triangles(corners):
@@ -70,7 +70,7 @@ def cut_quality(result):
 
     topologies = [state.topology for state in softbody.read(str(result))]
     uncut, cut = topologies[0], topologies[-1]
-    times = cut_times(str(result))
+    times = cut_times(result)
     corners, of_cut = cut.rest_vertices[cut.triangles].astype(float), cut.cut_triangles
     touches = np.isin(cut.triangles, np.unique(cut.triangles[of_cut])).any(axis=1)
     return {"before": of_triangles(before(uncut, cut)), "after": of_triangles(corners[touches & ~of_cut]),
