@@ -1,11 +1,11 @@
-"""Runs of scenes like the real world: bodies of one colour, from many starts, and objects that are not there."""
+"""Runs of scenes like the real world: bodies of one colour, from many starts, wrong objects, frames without images."""
 import math
 import random
 
 from evaluation import bags
 from evaluation.figures import OWN_COLOUR, PLAIN, STARTS, TEXTURED, TEXTURES
 from evaluation.poses import direction, moved, near, turned_by
-from evaluation.runs import OUTPUT, config_of, measure, object_of, pose_of, recorded, track, with_pose
+from evaluation.runs import OUTPUT, changed, config_of, measure, object_of, pose_of, recorded, track, with_pose
 from evaluation.scan_bodies import write_scaled
 from pages import ROOT
 from tools import evaluate
@@ -14,6 +14,19 @@ PLAIN_CAMERA = {"still": ("--duration", "10")}
 START_M, START_RAD = 0.001, math.radians(0.5)  # from the middle, so starts are within 2 mm and 1 degree of each other
 WRONG_S = "2"
 WRONG_M, WRONG_RAD, WRONG_POSES = 0.02, math.radians(20.0), 4
+# Scenes whose last fifth is predicted without images, and what holds the body there.
+SHARE = 0.2
+CLAMP = "{name: clamp, frame: clamp, min: [-1, -1, -1], max: [-0.06, 1, 1]}"
+GRIPPER = "{name: gripper, frame: gripper, min: [0.06, -1, -1], max: [1, 1, 1]}"
+PLATE = "{name: plate, frame: plate, min: [0.095, -1, -1], max: [1, 1, 1]}"  # the body sticks to it
+HELD = {"bend_held": (CLAMP, GRIPPER), "push_held": (CLAMP, PLATE), "twist_held": (CLAMP, GRIPPER),
+        "press_held": (CLAMP, GRIPPER), "pull_held": (CLAMP, GRIPPER)}
+# A box with the area of the round stamp.
+STAMP = """simulator:
+  obstacles:
+    - {name: stamp, frame: stamp, shape: box, size_m: [0.044, 0.044, 0.02], rounding_m: 0.002,
+       pose: [0, 0, 0.01, 0, 0, 0, 1], friction: 1}
+"""
 
 
 def plain_run(scene):
@@ -80,10 +93,25 @@ def wrong_runs():
         return {**wrong_object_runs(bag), **wrong_pose_runs(bag)}
 
 
+def open_loop_run(scene):
+    """{("open loop", scene): report}. The tracker is told where the body begins, because both ends are hidden."""
+    name = f"{scene}_open_loop"
+    parameters = OUTPUT / f"{name}_parameters.yaml"
+    parameters.write_text(STAMP if scene == "press_held" else "simulator: {}\n")
+    with recorded(name, scene) as bag:
+        pose = ", ".join(f"{part:.9f}" for part in bags.start(bag))
+        config = changed(ROOT / "config/sponge.yaml", name, r"initial_pose:.*",
+                         f"initial_pose: [{pose}]\n  pins: [{', '.join(HELD[scene])}]")
+        result = track(name, bag, config, "--allow-outside", "--placed", "--open-loop", SHARE, "--parameters",
+                       parameters)
+        return {("open loop", scene): evaluate(result, "--truth", bag, "--open-loop", SHARE)}
+
+
 def world_runs(scenes):
     """Pieces of work (words, function, arguments...)."""
     textured = [(scene, texture) for texture in TEXTURES for scene in TEXTURED
                 if scene in scenes and not (texture == "plain" and scene in PLAIN)]
     return [*((f"{scene}, plain", plain_run, scene) for scene in (*PLAIN, *OWN_COLOUR) if scene in scenes),
             *((", ".join(which), texture_run, *which) for which in textured),
-            *([("wrong objects and poses", wrong_runs)] if "bend" in scenes else [])]
+            *([("wrong objects and poses", wrong_runs)] if "bend" in scenes else []),
+            *((f"{scene}, open loop", open_loop_run, scene) for scene in HELD if scene in scenes)]

@@ -5,9 +5,8 @@ import typing
 
 from evaluation.runs import object_of, tool_of
 from pages import ROOT
-from paper_parts.counts import counts, tear_times
-from paper_parts.cut_quality import cut_quality
 from paper_parts.methods import CUT_THROUGH, PAPER, TEAR
+from paper_parts.results import counts, cut_quality, tear_times
 from tools import OUTPUT, evaluate, perform, tool
 
 FOLDER = OUTPUT / "paper"

@@ -1,8 +1,11 @@
-"""Shape of the triangles at the cut, holes, change of the volume, and times of the cuts in a bag of `replay --timing`.
+"""What results have beside the reports of `evaluate`: counts, times of tears, and the quality of cuts.
 
+That is the shape of the triangles at the cut, holes, change of the volume, and times in a bag of `replay --timing`.
 "Before" are the triangles of the uncut surface that a plane through the cut splits. "After" are the triangles of the
 skin that touch the cut. "Faces" are the triangles of the faces of the cut.
 """
+import statistics
+
 import numpy as np
 
 from evaluation.bags import messages
@@ -46,12 +49,6 @@ def volume(surface):
     return float(np.linalg.det(corners).sum() / 6)
 
 
-def holes(cut):
-    """Edges that do not belong to exactly two triangles."""
-    edges = np.sort(np.concatenate([cut.triangles[:, pair] for pair in ([0, 1], [1, 2], [2, 0])]), axis=1)
-    return int((np.unique(edges, axis=0, return_counts=True)[1] != 2).sum())
-
-
 def cut_times(result):
     """Times of the frames in which a cut was made [ms]."""
     stamps = {message.header.stamp for message in messages(result, "/softbody/cut")}
@@ -72,8 +69,32 @@ def cut_quality(result):
     uncut, cut = topologies[0], topologies[-1]
     times = cut_times(result)
     corners, of_cut = cut.rest_vertices[cut.triangles].astype(float), cut.cut_triangles
+    edges = np.sort(np.concatenate([cut.triangles[:, pair] for pair in ([0, 1], [1, 2], [2, 0])]), axis=1)
+    holes = np.unique(edges, axis=0, return_counts=True)[1] != 2  # edges of not exactly two triangles
     touches = np.isin(cut.triangles, np.unique(cut.triangles[of_cut])).any(axis=1)
     return {"before": of_triangles(before(uncut, cut)), "after": of_triangles(corners[touches & ~of_cut]),
-            "faces": of_triangles(corners[of_cut]), "holes": holes(cut),
+            "faces": of_triangles(corners[of_cut]), "holes": int(holes.sum()),
             "volume_change": volume(cut) / volume(uncut) - 1,
             "cuts": len(times), "median_ms": float(np.median(times)), "worst_ms": max(times)}
+
+
+def counts(result):
+    """Vertices and polygons of the three models of the uncut body, and the median numbers of features that are bound to
+    the body and matched in a frame."""
+    surface, volume = (next(messages(result, f"/softbody/{body}/topology")) for body in ("surface", "volume"))
+    status = list(messages(result, "/softbody/status"))
+    boundary = {vertex for triangle in volume.surface_triangles for vertex in triangle.vertex_indices}
+    return {"sizes": {"High-resolution": [len(surface.rest_vertices), len(surface.triangles)],
+                      "Low-resolution": [len(boundary), len(volume.surface_triangles)],
+                      "Volumetric": [len(volume.rest_vertices), len(volume.tets)]},
+            "features": {"bound": statistics.median(message.features_total for message in status),
+                         "matched": statistics.median(message.features_tracked for message in status)}}
+
+
+def tear_times(result, recording):
+    """Times at which a body tears [s from the first frame]: in the truth, and each tear in the result."""
+    bodies = list(messages(recording, "/ground_truth/surface/topology"))
+    start = bodies[0].header.stamp
+    truth = next(body.header.stamp for body in bodies if body.revision == 1)
+    tears = [message.header.stamp for message in messages(result, "/softbody/cut")]
+    return {"truth_s": (truth - start).to_sec(), "tears_s": [(tear - start).to_sec() for tear in tears]}
