@@ -122,9 +122,8 @@ def header_faults(sources):
             yield f"{source.name}: has no header of its own ({header.name} beside it or in {public})"
 
 
-def room_graphs(sources):
-    """{package: {room: {room it includes: a file that does}}} of the cores."""
-    graphs = {}
+def room_faults(sources):
+    graphs = {}  # {package: {room: {room it includes: a file that does}}} of the cores
     for source in sources:
         if source.room is None:
             continue
@@ -136,11 +135,7 @@ def room_graphs(sources):
                 continue
             if str(target.parent) != source.room:
                 graph.setdefault(str(target.parent), source.name)
-    return graphs
-
-
-def room_faults(sources):
-    for package, graph in room_graphs(sources).items():
+    for package, graph in graphs.items():
         try:
             graphlib.TopologicalSorter(graph).prepare()
         except graphlib.CycleError as error:

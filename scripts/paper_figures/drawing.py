@@ -95,11 +95,8 @@ def show_tets(axis, camera, vertices, tets, shrink=0.8):
     """Every tet a little smaller, so that the inside shows."""
     corners = vertices[tets]
     middle = corners.mean(axis=1, keepdims=True)
-    corners = middle + shrink * (corners - middle)
-    numbers = np.arange(corners.shape[0] * 4).reshape(-1, 1, 4)
-    triangles = np.take_along_axis(np.repeat(numbers, 4, axis=1), np.broadcast_to(FEET, (len(tets), 4, 3)), axis=2)
-    show_body(axis, camera, corners.reshape(-1, 3), triangles.reshape(-1, 3), (0.75, 0.8, 0.9),
-              edges=[(0.25, 0.3, 0.5)])
+    corners = (middle + shrink * (corners - middle))[:, FEET].reshape(-1, 3)
+    show_body(axis, camera, corners, np.arange(len(corners)).reshape(-1, 3), (0.75, 0.8, 0.9), edges=[(0.25, 0.3, 0.5)])
 
 
 def show_points(axis, camera, points, color, size=3.0):
