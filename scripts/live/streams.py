@@ -34,11 +34,6 @@ class Stream:
         """Stamps and arrival times of the messages that arrived in this time."""
         return [(s, a) for s, a in zip(self.stamps, self.arrivals) if begin <= a < end]
 
-    def latencies(self, begin, end, published):
-        """Times [s] since the image was published, of the messages that arrived in this time."""
-        return [clock - published[stamp] for stamp, arrival, clock in zip(self.stamps, self.arrivals, self.clock)
-                if begin <= arrival < end and stamp in published]
-
 
 def gaps(messages, frames, due, cuts, begin, end, rate):
     """The longest gap between two messages, in due frames (by stamps), and in ms (by arrivals) over gaps in which all frames are

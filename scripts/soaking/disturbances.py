@@ -1,4 +1,5 @@
 """Cuts, undo and kills, all at random, and always the same."""
+import collections
 import random
 import signal
 import threading
@@ -25,7 +26,7 @@ class Editor(threading.Thread):
         super().__init__(daemon=True)
         self.graph, self.side, self.random = graph, side, random.Random(side.namespace)
         self.begin, self.end, self.stop = begin, end, stop
-        self.counts = {}
+        self.counts = collections.Counter()
         self.memory = {}  # (node, process id): (time, MB)
         self.box = None
 
@@ -40,20 +41,17 @@ class Editor(threading.Thread):
         try:
             answer = self.cut() if edit == "cut" else self.call(edit, Trigger)()
         except (rospy.ServiceException, rospy.ROSException):
-            return self.count(f"{edit} without an answer")  # the node was killed
-        self.count(f"{edit} {'made' if answer.success else 'refused'}")
+            self.counts[f"{edit} without an answer"] += 1  # the node was killed
+            return
+        self.counts[f"{edit} {'made' if answer.success else 'refused'}"] += 1
         if edit == "reset" and "on its way" not in answer.message and not self.stop.wait(SETTLED_S):
             self.measure()
-        return None
 
     def measure(self):
         for name, pid in self.graph.nodes().items():
             size = memory_mb(pid) if name.startswith(self.side.namespace + "/") else None
             if size:
                 self.memory.setdefault((name, pid), []).append((time.time(), size))
-
-    def count(self, what):
-        self.counts[what] = self.counts.get(what, 0) + 1
 
     def call(self, name, kind):
         service = f"{self.side.namespace}/surface/{name}"

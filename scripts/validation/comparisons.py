@@ -8,8 +8,7 @@ from scipy.spatial.transform import Rotation
 
 from pages import ROOT
 from validation.corotational_reference import beam_tip
-from validation.simulate_tool import (OUTPUT, SOLVERS, box, cells, positions, run_tool, second_moment, settled,
-                                      static)
+from validation.simulate_tool import OUTPUT, SOLVERS, box, read, run_tool, second_moment, settled, static
 
 MESHES = ROOT / "../shared/data/meshes/tet"
 
@@ -23,7 +22,7 @@ def agreement_rows():
         if run.returncode != 0:
             print(run.stderr, end="", file=sys.stderr)
             continue  # no tets
-        rest = positions(probe)
+        rest, _ = read(probe)
         low, high = rest.min(axis=0), rest.max(axis=0)
         limit = low[2] + 0.25 * (high[2] - low[2])
         if (rest[:, 2] <= limit).sum() < 3:
@@ -45,7 +44,7 @@ def prism_rows():
             continue
         result = OUTPUT / "prism.vtu"
         held = static(path, "--pin", "all", "--output", result)
-        rest, tets = positions(result), cells(result)
+        rest, tets = read(result)
         low, high = rest.min(axis=0), rest.max(axis=0)
         length = high[along] - low[along]
         area = held["volume_m3"] / length

@@ -56,7 +56,7 @@ def settled(mesh, *arguments):
     """The vertices at the end of a run, and its rows."""
     result = OUTPUT / "result.vtu"
     rows = simulate(mesh, *arguments, "--output", result)
-    return positions(result), rows
+    return read(result)[0], rows
 
 
 def box(name, cells, place):
@@ -78,19 +78,12 @@ def box(name, cells, place):
     return path, vertices
 
 
-def column(vtu, mark, kind):
+def read(vtu):
+    """The vertices and tets of a VTU that the tool has written."""
     text = vtu.read_text()
-    return np.array(text[text.index(mark):].split(">", 1)[1].split("<", 1)[0].split(), dtype=kind)
-
-
-def positions(vtu):
-    """The vertices of a VTU that the tool has written."""
-    return column(vtu, 'NumberOfComponents="3"', float).reshape(-1, 3)
-
-
-def cells(vtu):
-    """The tets of a VTU that the tool has written."""
-    return column(vtu, 'Name="connectivity"', int).reshape(-1, 4)
+    points, corners = (text[text.index(mark):].split(">", 1)[1].split("<", 1)[0].split()
+                       for mark in ('NumberOfComponents="3"', 'Name="connectivity"'))
+    return np.array(points, float).reshape(-1, 3), np.array(corners, int).reshape(-1, 4)
 
 
 def second_moment(vertices, tets, axis):
