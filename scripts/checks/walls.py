@@ -55,13 +55,6 @@ class Source:
         return None
 
 
-def cpp_sources():
-    """All but the programs of a package of its own (CATKIN_IGNORE)."""
-    paths = sorted(path for path in (ROOT / "src").rglob("*")
-                   if path.suffix in CPP and not (path.parent / "CATKIN_IGNORE").exists())
-    return [Source(path) for path in paths]
-
-
 @functools.cache
 def is_ros(target):
     """Whether a header belongs to a ROS package: Debian installs a package.xml for each."""
@@ -174,7 +167,9 @@ def library_faults():
                 yield f"{path.name}: linked to {needed}; a core does without ROS"
 
 
-sources = cpp_sources()
+# All but the programs of a package of its own (CATKIN_IGNORE).
+sources = [Source(path) for path in sorted((ROOT / "src").rglob("*"))
+           if path.suffix in CPP and not (path.parent / "CATKIN_IGNORE").exists()]
 faults = [*ros_faults(sources), *package_faults(sources), *include_style_faults(sources), *header_faults(sources),
           *room_faults(sources), *size_faults(), *library_faults()]
 sys.exit("\n".join(faults) or int(not sources))

@@ -39,14 +39,11 @@ def tracked(name, bag, scene, seed):
     return track(name, bag, with_pose(object_of(scene), name, pose), "--allow-outside")
 
 
-def alone_name(scene, seed):
-    return f"starts_alone_{scene}_{seed}"
-
-
 def alone_run(scene, seed):
     """Keeps the result of the body alone, for all scenes that are compared with it."""
-    with layout(alone_name(scene, seed), scene, seed, "--no-hands") as bag:
-        tracked(alone_name(scene, seed), bag, scene, seed)
+    name = f"starts_alone_{scene}_{seed}"
+    with layout(name, scene, seed, "--no-hands") as bag:
+        tracked(name, bag, scene, seed)
 
 
 def scene_run(scene, seed):
@@ -54,7 +51,7 @@ def scene_run(scene, seed):
     name = f"starts_{scene}_{seed}"
     with layout(name, scene, seed) as bag:
         result = tracked(name, bag, scene, seed)
-        alone = OUTPUT / f"{alone_name(ALONE[scene], seed)}_result.bag"
+        alone = OUTPUT / f"starts_alone_{ALONE[scene]}_{seed}_result.bag"
         reports = evaluate(result, "--truth", bag), evaluate(alone, "--truth", bag)
     result.unlink()
     return reports

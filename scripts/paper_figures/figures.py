@@ -71,23 +71,20 @@ def figure_2(scenes):
         axes[name].set_title(f"{node}\n{stage}", fontsize=8)
         axes[name].set_xticks([])
         axes[name].set_yticks([])
-    for start, end, words in FLOWS:
-        connect(figure, axes[start].get_position(), axes[end].get_position(), words)
+    for names in FLOWS:
+        # An arrow between two boxes, from side to side, or from above to below.
+        start, end = (axes[name].get_position() for name in names[:2])
+        middle = (start.y0 + start.y1) / 2, (end.y0 + end.y1) / 2
+        if start.x0 == end.x0:
+            places = [(start.x0 + WIDTH / 2, start.y0), (end.x0 + WIDTH / 2, end.y1 + 0.09)]
+        elif start.x0 < end.x0:
+            places = [(start.x1, middle[0]), (end.x0, middle[1])]
+        else:
+            places = [(start.x0, middle[0]), (end.x0 + WIDTH / 2, end.y0)]
+        figure.add_artist(FancyArrowPatch(*places, arrowstyle="-|>", mutation_scale=12, color=(0.3, 0.3, 0.3)))
+        figure.text((places[0][0] + places[1][0]) / 2, (places[0][1] + places[1][1]) / 2 + 0.015, names[2], fontsize=8,
+                    horizontalalignment="center")
     return figure
-
-
-def connect(figure, start, end, words):
-    """An arrow between two boxes, from side to side, or from above to below."""
-    middle = (start.y0 + start.y1) / 2, (end.y0 + end.y1) / 2
-    if start.x0 == end.x0:
-        places = [(start.x0 + WIDTH / 2, start.y0), (end.x0 + WIDTH / 2, end.y1 + 0.09)]
-    elif start.x0 < end.x0:
-        places = [(start.x1, middle[0]), (end.x0, middle[1])]
-    else:
-        places = [(start.x0, middle[0]), (end.x0 + WIDTH / 2, end.y0)]
-    figure.add_artist(FancyArrowPatch(*places, arrowstyle="-|>", mutation_scale=12, color=(0.3, 0.3, 0.3)))
-    figure.text((places[0][0] + places[1][0]) / 2, (places[0][1] + places[1][1]) / 2 + 0.015, words, fontsize=8,
-                horizontalalignment="center")
 
 
 def figure_3(scenes):
