@@ -5,4 +5,5 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
 def is_python(path):
-    return path.suffix == ".py" or (not path.suffix and path.is_file() and b"python3" in path.read_bytes().split(b"\n")[0])
+    return path.suffix == ".py" or (
+        path.suffix == "" and path.is_file() and b"python3" in path.read_bytes().split(b"\n")[0])

@@ -112,7 +112,7 @@ def main():
     found = [message for message in messages() if len(re.findall(r"[A-Za-z_]{2,}", message[2])) > 2]
     faults = [f"{path.relative_to(ROOT)}:{line}: {fault}: {' '.join(text.split())}"
               for path, line, text, is_log in found for fault in faults_of(text, is_log)]
-    faults += stale_rows((ROOT / "docs/troubleshooting.md").read_text(encoding="utf-8"), [text for _, _, text, _ in found])
+    faults += stale_rows((ROOT / "docs/troubleshooting.md").read_text(encoding="utf-8"), [row[2] for row in found])
     print("\n".join([*faults, f"{len(found)} messages"]))
     return 1 if faults or not found else 0
 

@@ -267,8 +267,8 @@ def verdict(goal, value):
 
 
 def goal_rows(reports):
-    parts = (accuracy_goals, robustness_goals, cut_goals, bound_goals, open_loop_goals, toy_goals, plain_goals, hand_goals,
-             own_colour_goals, texture_goals, label_goals, camera_goals, doll_goals, solid_goals,
+    parts = (accuracy_goals, robustness_goals, cut_goals, bound_goals, open_loop_goals, toy_goals, plain_goals,
+             hand_goals, own_colour_goals, texture_goals, label_goals, camera_goals, doll_goals, solid_goals,
              lambda reports: solid_goals(reports, "soft toy, ", "doll_"), honest_goals)
     return [[metric, *verdict(goal, value)] for part in parts for metric, goal, value in part(reports)]
 

@@ -30,7 +30,7 @@ def stream_figures(measurement, topic):
         camera = measurement.streams[CAMERA]
         published = dict(zip(camera.stamps, camera.clock if measurement.options.bag else camera.stamps))
         result["latency_ms"] = quantiles(
-            1e3 * (time - published[stamp]) for stamp, arrival, time in zip(stream.stamps, stream.arrivals, stream.clock)
+            1e3 * (now - published[stamp]) for stamp, arrival, now in zip(stream.stamps, stream.arrivals, stream.clock)
             if begin <= arrival < end and stamp in published)
     return result
 
@@ -63,7 +63,8 @@ def complaint(measurement, streams):
 
 def figures_of(measurement):
     options, seconds = measurement.options, measurement.end - measurement.begin
-    streams = {topic: stream_figures(measurement, topic) for topic in [CAMERA, *STREAMS] if options.cuts or topic != TOOL}
+    streams = {topic: stream_figures(measurement, topic) for topic in [CAMERA, *STREAMS]
+               if options.cuts or topic != TOOL}
     frames = streams[CAMERA]["messages"]
     return {"source": options.bag or "scene " + options.scene, "is_bag": bool(options.bag), "cores": os.cpu_count(), "load": measurement.load,
             "seconds": seconds, "frames": frames, "cuts": len(measurement.streams[CUTS].between(measurement.begin, measurement.end)),
