@@ -93,7 +93,7 @@ def readme_rows(reports):
         ours = (" / ".join(error(reports[Run(scene, COMPARED[method])]) for scene in scenes)
                 for kind, method in SHOWN.items() if kind != PAPER)
         yield [f"{words}, mean error of scenes {' / '.join(scenes)} [mm]", number(PAPER_MEAN_ERROR_MM), *ours]
-    for what, initialization in (("time of a frame", False), ("initialization without registration", True)):
+    for what, initialization in (("time of a frame", False), ("initialization without the search", True)):
         times = totals(reports, initialization)
         yield [f"{' / '.join(WORDS.values())}, {what} [ms]",
                *(" / ".join(number(times[(body, kind)]) for body in WORDS) for kind in SHOWN)]
