@@ -5,6 +5,8 @@
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
+#include "softbody_common/statistics/median.h"
+
 namespace softbody::evaluation {
 namespace {
 
@@ -44,14 +46,13 @@ Eigen::Vector3d motionAround(const Eigen::Vector3d& place, const std::vector<Eig
   std::partial_sort(order.begin(), order.begin() + count, order.end(), [&](std::size_t a, std::size_t b) {
     return (places[a] - place).squaredNorm() < (places[b] - place).squaredNorm();
   });
-  Eigen::Vector3d median;
+  Eigen::Vector3d motion;
   for (int axis = 0; axis < 3; ++axis) {
-    const auto middle = order.begin() + count / 2;
-    std::nth_element(order.begin(), middle, order.begin() + count,
-                     [&](std::size_t a, std::size_t b) { return motions[a][axis] < motions[b][axis]; });
-    median[axis] = motions[*middle][axis];
+    std::vector<double> beside;
+    for (auto m = order.begin(); m != order.begin() + count; ++m) beside.push_back(motions[*m][axis]);
+    motion[axis] = median(&beside);
   }
-  return median;
+  return motion;
 }
 
 }  // namespace

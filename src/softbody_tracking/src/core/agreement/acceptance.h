@@ -9,7 +9,6 @@ namespace softbody {
 
 /// Whether the frame shows the body at a pose where it is expected: what nothing hides agrees, and the pose
 /// is confined. It may be half hidden, and others may touch it.
-///
 bool isShown(const RgbdFrame& frame, const TriangleMesh& mesh, const Eigen::Isometry3d& pose);
 
 /// Whether the body stands free at a pose: all that the mesh covers agrees, and the outline has edges.
