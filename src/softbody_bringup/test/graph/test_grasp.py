@@ -32,7 +32,7 @@ class Grasp(unittest.TestCase):
                                                                      seen["softbody/surface/state"])]
 
         held = [w.header.stamp for w in seen["softbody/reaction/gripper"]]
-        self.assertGreater(len(held), 2, "nothing was held")
+        self.assertGreater(len(held), 1, "nothing was held")
         delay = ANSWER + max(ages) + max(later - earlier for earlier, later in zip(held, held[1:]))
         self.assertLess(held[0], closed + delay)
         self.assertGreater(held[0], closed - delay)

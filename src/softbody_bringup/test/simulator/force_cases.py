@@ -33,7 +33,7 @@ class ForceCases:
         return answer.vertices
 
     def forces_of_a_frame(self, heard, targets, move=lambda: None):
-        """Frames until one has forces: five times as long as the last estimate took are between two. @return them."""
+        """Frames until one has forces: twice as long as the last estimate took are between two. @return them."""
         for _ in range(1000):
             move()
             self.step(targets=targets)

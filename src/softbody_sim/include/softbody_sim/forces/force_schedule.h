@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -14,13 +13,12 @@ namespace softbody {
 class ForceSchedule {
  public:
   /// Whether the last estimate is too old, or of other pins. Then a new one must follow.
-  /// @param rest_s least time between two; a busy computer needs more than 0.2 s.
-  bool isDue(const std::vector<Pin>& pins, Nanoseconds stamp, double rest_s = 0.0) {
+  bool isDue(const std::vector<Pin>& pins, Nanoseconds stamp) {
     constexpr double kPeriod_s = 0.2;
     std::vector<int> held;
     for (const Pin& pin : pins) held.push_back(pin.vertex);
     const double since_s = seconds(stamp - stamp_);
-    if (since_s >= 0.0 && since_s < std::max(kPeriod_s, rest_s) && held == held_) return false;
+    if (since_s >= 0.0 && since_s < kPeriod_s && held == held_) return false;
     stamp_ = stamp;
     held_ = std::move(held);
     return true;

@@ -14,7 +14,7 @@
 namespace softbody {
 namespace {
 
-constexpr double kRest = 5.0;  // times that an estimate takes lie between two of them
+constexpr double kRest = 2.0;  // the node has this many times what an estimate takes for its steps
 
 }  // namespace
 
@@ -34,10 +34,11 @@ void ForcePublisher::publish(const TargetSet& targets, const std_msgs::Header& h
   if (!isListenedTo() && !surroundings.hasListenedPins()) return;
   const Surroundings& around = surroundings.lastSurroundings().all;
   reactions->pins.clear();
-  if (!schedule_.isDue(around.pins, toNanoseconds(header.stamp), kRest * taken_s_)) return;
-  const ros::WallTime start = ros::WallTime::now();
+  const ros::SteadyTime start = ros::SteadyTime::now();
+  if (start < rests_until_ || !schedule_.isDue(around.pins, toNanoseconds(header.stamp))) return;
   ForceEstimate estimate = simulator->externalForces(targets, around);
-  taken_s_ = (ros::WallTime::now() - start).toSec();
+  const ros::SteadyTime end = ros::SteadyTime::now();
+  rests_until_ = end + (end - start) * kRest;
   reactions->pins = estimate.pins;
   if (isListenedTo()) send(std::move(estimate), header, surroundings);
 }

@@ -31,7 +31,7 @@ class ForcePublisher {
   const std::string wrench_frame_;
   ros::Publisher forces_, markers_;
   ForceSchedule schedule_;
-  double taken_s_ = 0.0;  ///< by the last estimate
+  ros::SteadyTime rests_until_;  ///< stamps may stand still or start again
   bool shows_arrows_ = false;
 };
 
