@@ -12,6 +12,7 @@ TEXTURED = tuple(body + scene for body in ("", "doll_") for scene in (*NOISE_FRE
 TEXTURES = ("weak", "plain")
 # Scenes with other things at the body from the first frame on, or that pass before it.
 CLUTTERED = ("neighbour", "twin", "stack", "clutter", "held", "two_bodies", "arm")
+SCANNED = ("flip", "turntable", "walk", "walk_hand")
 FALSE_AFTER_S = 1.0
 WRONG_MM = 15.0  # a vertex this far off is not tracked
 STARTS = 20  # rough poses of each plain scene

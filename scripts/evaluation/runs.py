@@ -3,8 +3,8 @@ import json
 import re
 
 from evaluation import bags
-from evaluation.figures import (CLUTTERED, DEPTH_HOLES, FEW_FEATURES, MOVING, NOISE_FREE, WRONG_MATCH_SEEDS,
-                                wrong_matches)
+from evaluation.figures import (CLUTTERED, DEPTH_HOLES, FEW_FEATURES, MOVING, NOISE_FREE, SCANNED,
+                                WRONG_MATCH_SEEDS, wrong_matches)
 from evaluation.poses import moved
 from pages import ROOT
 from tools import OUTPUT, evaluate, recording, tool
@@ -33,9 +33,9 @@ FARTHER_M = {"far": 0.4, "doll_far": 0.4, "two_bodies": 0.25}  # away from the c
 
 
 def all_scenes():
-    """Those of a body alone, or with what deforms it."""
+    """Those of a body alone, or with what deforms it. `make scans` measures those that are made to be scanned."""
     scenes = re.search(r"--scene \S*?\{([^}]*)\}", tool("virtual_camera", "--help"))[1].split(",")
-    return [scene for scene in scenes if scene.removeprefix("doll_") not in CLUTTERED]
+    return [scene for scene in scenes if scene.removeprefix("doll_") not in (*CLUTTERED, *SCANNED)]
 
 
 def recorded(name, scene, *arguments):

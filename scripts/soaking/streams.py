@@ -18,18 +18,21 @@ class Side:
         self.namespace, self.begun = namespace, time.time()
         self.lock = threading.Lock()
         self.frames, self.states, self.kills = [], [], []  # stamps; (stamp, arrival); (time, node)
+        self.halves = {"color": set(), "aligned_depth_to_color": set()}  # stamps of images
         self.revisions = {"volume": 0, "surface": 0}
         self.apart_since, self.longest_apart = None, 0.0
         subscribe = {"queue_size": 100, "buff_size": 1 << 24, "tcp_nodelay": True}
-        rospy.Subscriber(f"{camera}/color/image_raw", rospy.AnyMsg, self._add_frame, **subscribe)
+        for stream in self.halves:
+            rospy.Subscriber(f"{camera}/{stream}/image_raw", rospy.AnyMsg, self._add_image, stream, **subscribe)
         for body in ("volume", "surface"):
             rospy.Subscriber(f"{namespace}/{body}/state", rospy.AnyMsg, self._add_state, body, **subscribe)
 
-    def _add_frame(self, message):
+    def _add_image(self, message, stream):
         stamp, _ = header(message._buff)
         with self.lock:
-            # A late or repeated image is dropped by the graph, as it should be.
-            if not self.frames or stamp > self.frames[-1]:
+            self.halves[stream].add(stamp)
+            # A colour image needs its depth. What is late or repeated is dropped by the graph, as it should be.
+            if all(stamp in stamps for stamps in self.halves.values()) and stamp > max(self.frames[-1:], default=0):
                 self.frames.append(stamp)
 
     def _add_state(self, message, body):
@@ -72,7 +75,7 @@ class Side:
         for kill, node in self.kills:
             times = (arrival - kill for stamp, arrival in states if kill < stamp and arrival < kill + 60)
             time_s = min(times, default=float("inf"))
-            again = any(kill < other < kill + time_s for other, _ in self.kills)
+            again = time_s < 60 and any(kill < other < kill + time_s for other, _ in self.kills)
             if kill < end and not again and not node.endswith(("/virtual_camera", "/injector")):
                 slowest.setdefault(self.recovery_s(node), []).append((time_s, node))
         return [(limit, max(times)) for limit, times in sorted(slowest.items())]
