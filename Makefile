@@ -64,7 +64,7 @@ starts: build  ## start tracking on 100 layouts of cluttered scenes; writes docs
 latency: build  ## measure latency and CPU times of the live graph in 32 ways (12 minutes); writes docs/latency.md
 	cd scripts && /usr/bin/python3 -m evaluation.latency $(SCENES)
 
-scans: build  ## scan virtual bodies and faulty recordings, track with the models; writes docs/scans.md. KEEP=yes: keeps the recordings
+scans: build  ## scan virtual bodies and faulty recordings, track with the models; writes docs/measured/scans.md. KEEP=yes: keeps the recordings
 	cd scripts && /usr/bin/python3 -m evaluation.scans $(if $(KEEP),--keep) $(SCENES)
 
 figures: build  ## draw the paper's Figures 1 to 11 with our models, in docs/images

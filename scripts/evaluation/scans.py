@@ -1,7 +1,7 @@
 """How right models from recordings are: records walks round three bodies, scans them, and compares with the truth.
 
 Then scans recordings with faults: each must give a right model, or no model and a reason. At last it tracks scenes with
-scanned models and with the true mesh. Writes docs/scans.md; recordings (some 900 MB each), models and results go to
+scanned models and with the true mesh. Writes docs/measured/scans.md; recordings (900 MB each), models and results go to
 evaluation/scans. Each recording is removed after its last use. Run by `make scans`.
 
 Usage, in scripts/: python3 -m evaluation.scans [--keep] [ROW...]
@@ -166,7 +166,7 @@ def main():
     results = perform([row for name, row in known.items() if name in names], "--keep" in sys.argv)
     tables = {heading: [cells for row in part if row.name in results for cells in rows_of(row, results[row.name])]
               for heading, part in PARTS.items()}
-    publish("scans.md", "scans", tables, complete=len(results) == len(known))
+    publish("measured/scans.md", "scans", tables, complete=len(results) == len(known))
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""The rows of the tables in docs/scans.md, from the results of scans.py; the page repeats these limits."""
+"""The rows of the tables in docs/measured/scans.md, from the results of scans.py; the page repeats these limits."""
 import re
 
 from evaluation.figures import get, tracking_share

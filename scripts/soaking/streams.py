@@ -51,8 +51,8 @@ class Side:
                 self.longest_apart = max(self.longest_apart, now - self.apart_since)
 
     def recovery_s(self, node):
-        """Longest time until a killed node works again [s]; a frame in this time needs no answer. A manager starts the whole
-        graph again, and may take as long as the graph's own start, on this machine beside the same work."""
+        """Longest time until a killed node works again [s]; a frame in this time needs no answer. A manager starts the
+        whole graph again, and may take as long as the graph's own start, on this machine beside the same work."""
         return self.states[0][1] - self.begun if node.endswith("/manager") else NODE_S
 
     def _is_calm(self, moment):
@@ -66,9 +66,9 @@ class Side:
         return [stamp for stamp in due if stamp not in answered], len(due)
 
     def slowest_recoveries(self, end):
-        """(limit [s], (time until a state of a later frame came [s], node)) of the kills with each limit; infinite if none came
-        within a minute. A kill during a recovery begins it anew. Kills of the camera and of its connection do not count: there
-        are no frames until they are back."""
+        """(limit [s], (time until a state of a later frame came [s], node)) of the kills with each limit; infinite if none
+        came within a minute. A kill during a recovery begins it anew. Kills of the camera and of its connection do not
+        count: there are no frames until they are back."""
         with self.lock:
             states = list(self.states)
         slowest = {}
