@@ -66,9 +66,9 @@ class Side:
         return [stamp for stamp in due if stamp not in answered], len(due)
 
     def slowest_recoveries(self, end):
-        """(limit [s], (time until a state of a later frame came [s], node)) of the kills with each limit; infinite if none
-        came within a minute. A kill during a recovery begins it anew. Kills of the camera and of its connection do not
-        count: there are no frames until they are back."""
+        """(limit [s], (time until a state of a later frame came [s], node)) of the kills with each limit; infinite
+        if none came within a minute. A kill during a recovery begins it anew. Kills of the camera and of its
+        connection do not count: there are no frames until they are back."""
         with self.lock:
             states = list(self.states)
         slowest = {}
