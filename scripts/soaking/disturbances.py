@@ -68,7 +68,7 @@ class Editor(threading.Thread):
 
 
 class Killer(threading.Thread):
-    """Kills one node after another at random."""
+    """Kills one node after another at random, except the injector: the launch would end with it."""
 
     def __init__(self, graph, sides, options, begin, end, stop):
         super().__init__(daemon=True)
@@ -86,7 +86,8 @@ class Killer(threading.Thread):
             self.kill_one()
 
     def kill_one(self):
-        name = self.random.choice(sorted(name for name in self.graph.nodes() if name.count("/") == 2))
+        name = self.random.choice(sorted(name for name in self.graph.nodes()
+                                         if name.count("/") == 2 and not name.endswith("/injector")))
         side = next(side for side in self.sides if name.startswith(side.namespace + "/"))
         moment = time.time()
         if self.graph.kill(name):

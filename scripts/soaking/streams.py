@@ -9,6 +9,11 @@ from live.streams import header
 
 BEFORE_S = 0.5  # frames so close before a kill need no answer
 NODE_S = 2.0  # longest time until a killed node works again
+CAMERA_S = 10.0  # in which a camera is back
+
+
+def is_outside(moment, spans):
+    return not any(begin <= moment <= end for begin, end in spans)
 
 
 class Side:
@@ -55,20 +60,28 @@ class Side:
         whole graph again, and may take as long as the graph's own start, on this machine beside the same work."""
         return self.states[0][1] - self.begun if node.endswith("/manager") else NODE_S
 
-    def _is_calm(self, moment):
-        return not any(kill - BEFORE_S <= moment <= kill + self.recovery_s(node) for kill, node in self.kills)
+    def _disturbances(self):
+        """(begin, end) of the times around kills in which a frame needs no answer. After that of a camera the graph
+        recovers from its first frame on: the one after the longest silence."""
+        for kill, node in self.kills:
+            back = kill
+            if node.endswith("/virtual_camera"):
+                near = sorted(stamp for stamp in self.frames if kill - BEFORE_S < stamp < kill + CAMERA_S)
+                back = max(zip(near, near[1:]), key=lambda pair: pair[1] - pair[0], default=(kill, kill))[1]
+            yield kill - BEFORE_S, back + self.recovery_s(node)
 
     def unanswered(self, begin, end):
         """Stamps of frames that got no state although no kill was near, and the number of all such frames."""
         with self.lock:
             answered = {stamp for stamp, _ in self.states}
-            due = [stamp for stamp in self.frames if begin <= stamp < end and self._is_calm(stamp)]
+            disturbed = list(self._disturbances())
+            due = [stamp for stamp in self.frames if begin <= stamp < end and is_outside(stamp, disturbed)]
         return [stamp for stamp in due if stamp not in answered], len(due)
 
     def slowest_recoveries(self, end):
         """(limit [s], (time until a state of a later frame came [s], node)) of the kills with each limit; infinite
-        if none came within a minute. A kill during a recovery begins it anew. Kills of the camera and of its
-        connection do not count: there are no frames until they are back."""
+        if none came within a minute. A kill during a recovery begins it anew. Kills of the camera do not
+        count: there are no frames until it is back."""
         with self.lock:
             states = list(self.states)
         slowest = {}
@@ -76,14 +89,14 @@ class Side:
             times = (arrival - kill for stamp, arrival in states if kill < stamp and arrival < kill + 60)
             time_s = min(times, default=float("inf"))
             again = time_s < 60 and any(kill < other < kill + time_s for other, _ in self.kills)
-            if kill < end and not again and not node.endswith(("/virtual_camera", "/injector")):
+            if kill < end and not again and not node.endswith("/virtual_camera"):
                 slowest.setdefault(self.recovery_s(node), []).append((time_s, node))
         return [(limit, max(times)) for limit, times in sorted(slowest.items())]
 
     def latency(self, begin, end):
         """Median time from a frame's stamp to its state [s], away from kills; None without states."""
         with self.lock:
-            frames = set(self.frames)
+            frames, disturbed = set(self.frames), list(self._disturbances())
             times = sorted(arrival - stamp for stamp, arrival in self.states
-                           if begin <= stamp < end and stamp in frames and self._is_calm(stamp))
+                           if begin <= stamp < end and stamp in frames and is_outside(stamp, disturbed))
         return times[len(times) // 2] if times else None

@@ -39,7 +39,7 @@ TEST(IdentifyMaterial, NoisySagHasTheTruthWithinTwoStandardErrors) {
   int inside = 0;
   SaggingBeam exact;
   exact.observe(exact.clamp);
-  for (unsigned seed = 1; seed <= 10; ++seed) {
+  for (unsigned seed = 1; seed <= 20; ++seed) {
     SaggingBeam beam = exact;
     beam.random.seed(seed);
     beam.problem.observations[0].targets = beam.noisy(beam.problem.observations[0].targets, 1e-3);
@@ -47,7 +47,7 @@ TEST(IdentifyMaterial, NoisySagHasTheTruthWithinTwoStandardErrors) {
     EXPECT_TRUE(modulus.observable);
     inside += std::abs(modulus.value - 4e4) < 2.0 * modulus.statistical ? 1 : 0;
   }
-  EXPECT_GE(inside, 9);
+  EXPECT_GE(inside, 19);
 }
 
 /// All targets of a patch have the same error, as features that were placed on the body at once.
@@ -56,7 +56,7 @@ TEST(IdentifyMaterial, ErrorsOfNeighboursMakeTheStandardErrorLarger) {
   double factor = 0.0;
   SaggingBeam exact;
   exact.observe(exact.clamp);
-  for (unsigned seed = 1; seed <= 10; ++seed) {
+  for (unsigned seed = 1; seed <= 20; ++seed) {
     SaggingBeam beam = exact;
     beam.random.seed(seed);
     std::vector<Target>& targets = beam.problem.observations[0].targets;
@@ -65,9 +65,9 @@ TEST(IdentifyMaterial, ErrorsOfNeighboursMakeTheStandardErrorLarger) {
     for (const Target& target : once) targets.insert(targets.end(), 16, target);
     const EstimatedProperty modulus = propertyOf(identifyMaterial(beam.problem), "youngs_modulus_pa");
     inside += std::abs(modulus.value - 4e4) < 2.0 * modulus.statistical ? 1 : 0;
-    factor += modulus.correlation_factor / 10.0;
+    factor += modulus.correlation_factor / 20.0;
   }
-  EXPECT_GE(inside, 9);
+  EXPECT_GE(inside, 18);
   EXPECT_GT(factor, 6.0);
 }
 
