@@ -1,4 +1,5 @@
 """What one graph gets and gives: stamps of its images, and its states with their revisions and latency."""
+import math
 import struct
 import threading
 import time
@@ -66,7 +67,7 @@ class Side:
         for kill, node in self.kills:
             back = kill
             if node.endswith("/virtual_camera"):
-                near = sorted(stamp for stamp in self.frames if kill - BEFORE_S < stamp < kill + CAMERA_S)
+                near = [stamp for stamp in self.frames if kill - BEFORE_S < stamp < kill + CAMERA_S]
                 back = max(zip(near, near[1:]), key=lambda pair: pair[1] - pair[0], default=(kill, kill))[1]
             yield kill - BEFORE_S, back + self.recovery_s(node)
 
@@ -88,7 +89,7 @@ class Side:
         for kill, node in self.kills:
             times = (arrival - kill for stamp, arrival in states if kill < stamp and arrival < kill + 60)
             time_s = min(times, default=float("inf"))
-            again = time_s < 60 and any(kill < other < kill + time_s for other, _ in self.kills)
+            again = math.isfinite(time_s) and any(kill < other < kill + time_s for other, _ in self.kills)
             if kill < end and not again and not node.endswith("/virtual_camera"):
                 slowest.setdefault(self.recovery_s(node), []).append((time_s, node))
         return [(limit, max(times)) for limit, times in sorted(slowest.items())]

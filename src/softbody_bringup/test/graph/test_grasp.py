@@ -29,7 +29,7 @@ class Grasp(unittest.TestCase):
         with recorder.changed:
             seen = {name: list(messages) for name, messages in recorder.messages.items()}
             ages = [time - state.header.stamp for time, state in zip(recorder.arrivals["softbody/surface/state"],
-                                                                     seen["softbody/surface/state"])]
+                                                                     seen["softbody/surface/state"]) if time > closed]
 
         held = [w.header.stamp for w in seen["softbody/reaction/gripper"]]
         gripped = [stamp for stamp in held if closed < stamp < opened]
